@@ -160,27 +160,6 @@ HWY_INLINE void PlateRow::add_cylinder(const Segment& edge, V y, V r2, Intervals
 }
 
 template <size_t section_words>
-void draw_row(const RowTask& task, const RowWorkspace& workspace, bool is_even, size_t lane,
-              size_t row, std::vector<LeftSample>& left) {
-  const uint64_t *const alive = task.alive[row], *const sets = task.columns->sets();
-  uint64_t* const inside = task.inside + row * task.row_words();
-  const size_t words = task.words;
-  SectionColumns columns(task, workspace, 0, lane);
-  for (size_t first = 0, section = 0; first < words; first += section_words, ++section) {
-    if (!is_even) columns = SectionColumns(task, workspace, section, lane);
-    HWY_ALIGN uint64_t doubtful[section_words];
-    if (HWY_LIKELY(!mark_section<section_words>(sets, columns, is_even, first, inside, doubtful)))
-      continue;
-    const size_t end = std::min(section_words, words - first);
-    for (size_t word = 0; word < end; ++word)
-      for (uint64_t bits = doubtful[word] & alive[first + word]; bits; bits &= bits - 1)
-        left.push_back(
-            {static_cast<uint32_t>(row), static_cast<uint32_t>((first + word) * bits_per_word) +
-                                             static_cast<uint32_t>(std::countr_zero(bits))});
-  }
-}
-
-template <size_t section_words>
 void draw_plate(const RowPlates& plates, const RowPlate& plate, const RowTask& task,
                 RowWorkspace& workspace, std::vector<LeftSample>& left) {
   const Doubles d;
@@ -217,8 +196,15 @@ void draw_plate(const RowPlates& plates, const RowPlate& plate, const RowTask& t
     }
     for (; met; met &= met - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(met));
-      if (task.alive[j + lane])
-        draw_row<section_words>(task, workspace, is_even, lane, j + lane, left);
+      const size_t row = j + lane;
+      if (!task.alive[row]) continue;
+      mark_row<section_words>(
+          task, workspace, is_even, lane, row, [&](size_t word, uint64_t rest) HWY_ATTR {
+            for (; rest; rest &= rest - 1)
+              left.push_back(
+                  {static_cast<uint32_t>(row), static_cast<uint32_t>(word * bits_per_word) +
+                                                   static_cast<uint32_t>(std::countr_zero(rest))});
+          });
     }
   }
 }

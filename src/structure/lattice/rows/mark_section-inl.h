@@ -8,6 +8,7 @@
 #define MSQ_MARK_SECTION_INL_H
 #endif
 
+#include <algorithm>
 #include <type_traits>
 
 #include <hwy/highway.h>
@@ -69,6 +70,26 @@ HWY_INLINE bool mark_section(const uint64_t* sets, const SectionColumns& columns
     any = hn::Or(any, rest);
   }
   return !hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
+}
+
+/// Draws a part into a row: the interval of a lane of the workspace. Calls visit(word, doubtful)
+/// for the words of sections with samples in doubt, those that are alive.
+template <size_t section_words, class Visit>
+HWY_INLINE void mark_row(const RowTask& task, const RowWorkspace& workspace, bool is_even,
+                         size_t lane, size_t row, const Visit& visit) {
+  const uint64_t *const alive = task.alive[row], *const sets = task.columns->sets();
+  uint64_t* const inside = task.inside + row * task.row_words();
+  const size_t words = task.words;
+  SectionColumns columns(task, workspace, 0, lane);
+  for (size_t first = 0, section = 0; first < words; first += section_words, ++section) {
+    if (!is_even) columns = SectionColumns(task, workspace, section, lane);
+    HWY_ALIGN uint64_t doubtful[section_words];
+    if (HWY_LIKELY(!mark_section<section_words>(sets, columns, is_even, first, inside, doubtful)))
+      continue;
+    const size_t end = std::min(section_words, words - first);
+    for (size_t word = 0; word < end; ++word)
+      visit(first + word, doubtful[word] & alive[first + word]);
+  }
 }
 
 /// Calls the function with the number of words of a section as a constant.

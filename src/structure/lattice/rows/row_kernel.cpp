@@ -54,9 +54,6 @@ class SectionRows {
         left_(left),
         size_(struts.cell_size[0]),
         to_buckets_(ColumnSets::buckets / size_),
-        sets_(task.columns->sets()),
-        words_(task.words),
-        row_words_(task.row_words()),
         is_even_(task.is_even()) {}
 
   HWY_INLINE void draw(const RowStrut& strut);
@@ -69,8 +66,6 @@ class SectionRows {
   RowWorkspace& workspace_;
   std::vector<LeftSample>& left_;
   const double size_, to_buckets_;
-  const uint64_t* const sets_;
-  const size_t words_, row_words_;
   const bool is_even_;
 
   // Of the current strut.
@@ -169,26 +164,16 @@ HWY_INLINE void SectionRows<section_words>::draw(const RowStrut& strut) {
 
 template <size_t section_words>
 HWY_INLINE void SectionRows<section_words>::draw_row(size_t lane, size_t row) {
-  const uint64_t* const alive = task_.alive[row];
-  uint64_t* const inside = task_.inside + row * row_words_;
   low_ = workspace_.low[task_.widest][lane];
   high_ = workspace_.high[task_.widest][lane];
   size_t words = 0, samples = 0;  // doubtful
-  SectionColumns columns(task_, workspace_, 0, lane);
-  for (size_t first = 0, section = 0; first < words_; first += section_words, ++section) {
-    if (!is_even_) columns = SectionColumns(task_, workspace_, section, lane);
-    HWY_ALIGN uint64_t doubtful[section_words];
-    if (HWY_LIKELY(!mark_section<section_words>(sets_, columns, is_even_, first, inside, doubtful)))
-      continue;
-    const size_t end = std::min(section_words, words_ - first);
-    for (size_t word = 0; word < end; ++word) {
-      const uint64_t rest = doubtful[word] & alive[first + word];
-      workspace_.doubtful[words] = rest;
-      workspace_.first_column[words] = static_cast<uint32_t>((first + word) * bits_per_word);
-      words += rest != 0;
-      samples += static_cast<size_t>(std::popcount(rest));
-    }
-  }
+  mark_row<section_words>(
+      task_, workspace_, is_even_, lane, row, [&](size_t word, uint64_t rest) HWY_ATTR {
+        workspace_.doubtful[words] = rest;
+        workspace_.first_column[words] = static_cast<uint32_t>(word * bits_per_word);
+        words += rest != 0;
+        samples += static_cast<size_t>(std::popcount(rest));
+      });
   if (samples > 0) decide(lane, row, samples);
 }
 
@@ -253,7 +238,7 @@ HWY_INLINE void SectionRows<section_words>::decide(size_t lane, size_t row, size
     const uint64_t in =
         some & bits_of(dd, hn::And(hn::Gt(thin, zero), hn::Lt(least, hn::Mul(thin, thin))));
     const uint64_t near = some & ~in & bits_of(dd, hn::Le(least, hn::Mul(thick, thick)));
-    uint64_t* const bits = task_.inside + row * row_words_;
+    uint64_t* const bits = task_.inside + row * task_.row_words();
     for (uint64_t lanes = in; lanes; lanes &= lanes - 1) {
       const uint32_t at = column[n + static_cast<size_t>(std::countr_zero(lanes))];
       bits[at / bits_per_word] |= uint64_t{1} << (at % bits_per_word);
