@@ -27,7 +27,7 @@ struct RayArray {
   Vec3 direction(uint64_t i) const { return directions.at(i); }
   double from(uint64_t i) const { return t_min ? t_min[i] : 0; }
   double to(uint64_t i) const { return t_max ? t_max[i] : std::numeric_limits<double>::infinity(); }
-  void prefetch(uint64_t i) const {
+  HWY_INLINE void prefetch(uint64_t i) const {
     origins.prefetch(i);
     directions.prefetch(i);
   }
@@ -36,7 +36,7 @@ struct RayArray {
 /// Rays in an order that is not the array's come from and go to anywhere.
 constexpr size_t ahead = 16;
 
-void prefetch_to_write([[maybe_unused]] msq_ray_hit& hit) {
+HWY_INLINE void prefetch_to_write([[maybe_unused]] msq_ray_hit& hit) {
 #ifdef __GNUC__
   auto* const first = reinterpret_cast<unsigned char*>(&hit);
   __builtin_prefetch(first, 1);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/simd.h"
 #include "base/vec.h"
 
 namespace msq {
@@ -27,12 +28,10 @@ struct PointArray {
     return {v[0], v[1], v[2]};
   }
   /// Prefetches a point's bytes, which at() will read soon.
-  void prefetch([[maybe_unused]] uint64_t i) const {
-#if defined(__GNUC__)
+  HWY_INLINE void prefetch(uint64_t i) const {
     const unsigned char* p = data + i * stride;
-    __builtin_prefetch(p);
-    __builtin_prefetch(p + (is_float32 ? sizeof(float[3]) : sizeof(double[3])) - 1);
-#endif
+    hwy::Prefetch(p);
+    hwy::Prefetch(p + (is_float32 ? sizeof(float[3]) : sizeof(double[3])) - 1);
   }
 };
 

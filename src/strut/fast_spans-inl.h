@@ -29,9 +29,11 @@
 // each within these bounds. If the radius is nearly linear, each row also has bounds of its own. A
 // row's span reaches at most R / sqrt(A) from the cylinder's centre, or from the nearest of the
 // columns between a and b if the centre is beyond them. So the linear function differs from its
-// value there by at most |gx| R / sqrt(A), and the radius from that by its departure. The error of
-// computing it is at most 8 u U, which adds to D half of the error that it has anyway. The radii of
-// the two shells are bounded by the maximum, too, since the departure only holds within its reach.
+// value there by at most |gx| R / sqrt(A), and the radius from that by its departure, which is up
+// to sx R / sqrt(A) more than there, s its spread. As slopes and spreads are at most 1/2, the error
+// of computing the function is at most 8 u U, and so is that of the departure. They add to D as
+// much as the error that it has anyway. The radii of the two shells are bounded by the maximum,
+// too, since the departure only holds within its reach.
 #if defined(MSQ_STRUT_FAST_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_STRUT_FAST_SPANS_INL_H
 #undef MSQ_STRUT_FAST_SPANS_INL_H
@@ -74,6 +76,27 @@ void make_shapes(D d, const RasterTarget& target, LaneShape* out) {
                                           bits_per_word);
     }
   }
+}
+
+/// Columns [x0, i0) and (i1, x1] of the doubtful lanes, of rows of `columns`; `wide` lanes lie side
+/// by side. `at`: the solid, the row and layer of lane 0, and the column that others count from.
+HWY_INLINE void add_doubtful_lanes(const float (&columns)[4][2 * max_simd_doubles], size_t wide,
+                                   const DoubtfulSpan& at, uint64_t doubtful,
+                                   DoubtfulSpans& doubts) {
+  DoubtfulSpan* next = doubts.room(4 * max_simd_doubles);
+  for (; doubtful; doubtful &= doubtful - 1) {
+    const size_t l = static_cast<size_t>(std::countr_zero(doubtful));
+    const uint32_t j = at.j + static_cast<uint32_t>(l % wide),
+                   k = at.k + static_cast<uint32_t>(l / wide);
+    const auto add = [&](float from, float to) {
+      *next = {at.strut, j, k, at.first + static_cast<uint32_t>(static_cast<int32_t>(from)),
+               static_cast<uint32_t>(static_cast<int32_t>(to - from))};
+      next += from < to;
+    };
+    add(columns[0][l], columns[1][l]);
+    add(columns[2][l] + 1, columns[3][l] + 1);
+  }
+  doubts.count(next);
 }
 
 /// The radii of one strut: constant, between a minimum and a maximum, or nearly linear in the
@@ -230,7 +253,14 @@ HWY_INLINE void FastSpans<radii>::add_vectors(D d, const LaneShape& shape, size_
       V r = hn::MulAdd(hn::Sub(middle, a_column), set(setups_.gradient[0]), set(setups_.radius_a));
       r = hn::MulAdd(v, set(setups_.gradient[1]), r);
       r = hn::MulAdd(w, set(setups_.gradient[2]), r);
-      const V spread = set(setups_.spread);
+      const auto add_spread = [&](size_t axis, V from, V to, V sum) HWY_ATTR {
+        return hn::MulAdd(hn::AbsDiff(from, to), set(setups_.spread[axis]), sum);
+      };
+      const V half = hn::Set(d, 0.5f);
+      V spread =
+          add_spread(0, middle, hn::Mul(hn::Add(a_column, b_column), half), set(setups_.departure));
+      spread = add_spread(1, v, hn::Mul(dy, half), spread);
+      spread = add_spread(2, w, hn::Mul(dz, half), spread);
       const V most = hn::Add(r, spread), least = hn::Max(hn::Sub(r, spread), zero);
       low2 = hn::Min(hn::Max(low2, hn::Mul(least, least)), high2);
       high2 = hn::Min(high2, hn::Mul(most, most));
@@ -283,18 +313,10 @@ HWY_INLINE void FastSpans<radii>::add_doubts(D d, const LaneShape& shape, size_t
   hn::Store(i0, d, columns[1]);
   hn::Store(i1, d, columns[2]);
   hn::Store(x1, d, columns[3]);
-  for (uint64_t rest = bits_of(d, doubtful); rest; rest &= rest - 1) {
-    const size_t l = static_cast<size_t>(std::countr_zero(rest));
-    const auto add = [&](float from, float to) {
-      if (from >= to) return;
-      doubts_.push_back({static_cast<uint32_t>(strut), static_cast<uint32_t>(j + l % shape.wide),
-                         static_cast<uint32_t>(k + l / shape.wide),
-                         static_cast<uint32_t>(setups_.column[strut] + static_cast<int32_t>(from)),
-                         static_cast<uint32_t>(to - from)});
-    };
-    add(columns[0][l], columns[1][l]);
-    add(columns[2][l] + 1, columns[3][l] + 1);
-  }
+  add_doubtful_lanes(columns, shape.wide,
+                     {static_cast<uint32_t>(strut), static_cast<uint32_t>(j),
+                      static_cast<uint32_t>(k), static_cast<uint32_t>(setups_.column[strut]), 0},
+                     bits_of(d, doubtful), doubts_);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -29,7 +29,29 @@ struct RasterTarget {
 struct DoubtfulSpan {
   uint32_t strut, j, k, first, count;
 };
-using DoubtfulSpans = std::vector<DoubtfulSpan>;
+
+/// Spans, to which kernels add without a branch on each: they write some and say how many count.
+class DoubtfulSpans {
+ public:
+  void clear() { count_ = 0; }
+  size_t size() const { return count_; }
+  const DoubtfulSpan& operator[](size_t n) const { return spans_[n]; }
+  void push_back(const DoubtfulSpan& span) {
+    *room(1) = span;
+    ++count_;
+  }
+  /// Where the next spans go, at most `most`. They count once count() has said so.
+  DoubtfulSpan* room(size_t most) {
+    if (spans_.size() < count_ + most) spans_.resize(2 * (count_ + most));
+    return spans_.data() + count_;
+  }
+  /// The spans before `end` count.
+  void count(const DoubtfulSpan* end) { count_ = static_cast<size_t>(end - spans_.data()); }
+
+ private:
+  size_t count_ = 0;
+  std::vector<DoubtfulSpan> spans_;
+};
 
 /// The rows and layers that a strut may meet: [j0, j1) of [k0, k1).
 struct RowRange {

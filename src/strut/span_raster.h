@@ -21,6 +21,7 @@
 #include "base/borrowed.h"
 #include "base/job.h"
 #include "base/sample_grid.h"
+#include "base/simd.h"
 #include "base/vec.h"
 #include "strut/raster_target.h"
 #include "strut/restrict_words.h"
@@ -69,6 +70,9 @@ class SpanRaster {
     friend auto operator<=>(const Sample&, const Sample&) = default;
   };
 
+  /// Doubtful spans lie anywhere in the block, so each is prefetched this many ahead.
+  static constexpr size_t doubts_ahead = 8;
+
   RasterTarget target(double margin);
   static void draw(const RasterTarget& target, const StrutBatch& struts, DoubtfulSpans& doubts);
   uint64_t* certain_row(size_t j, size_t k) {
@@ -84,6 +88,14 @@ class SpanRaster {
   };
   template <class FindRadii>
   void decide(Queried& queried, double margin, FindRadii& find_radii);
+  /// Prefetches the first words of a doubtful span, if there is one.
+  HWY_INLINE void prefetch(size_t n) {
+    if (n >= doubtful_.size()) return;
+    const DoubtfulSpan& span = doubtful_[n];
+    const size_t word = span.first / bits_per_word;
+    hwy::Prefetch(certain_row(span.j, span.k) + word);
+    hwy::Prefetch(alive_.row(alive_.y0 + span.j, alive_.z0 + span.k) + word);
+  }
   /// Leaves the sample to the predicate.
   void leave(Sample sample);
 
@@ -106,44 +118,53 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
   const SampleGrid& grid = *alive_.grid;
   Queried queried;
   uint32_t strut = UINT32_MAX;
-  Vec3 a, ab, slope;
+  Vec3 a, ab, slope, spread;
   double inverse_squared = 0;
-  for (const DoubtfulSpan& span : doubtful_) {
+  for (size_t n = 0; n < doubtful_.size(); ++n) {
+    prefetch(n + doubts_ahead);
+    const DoubtfulSpan& span = doubtful_[n];
     if (span.strut != strut) {
       strut = span.strut;
       a = struts.from(strut);
       ab = struts.to(strut) - a;
       const double squared = dot(ab, ab);
       inverse_squared = squared > 0 ? 1 / squared : 0;
-      if (struts.linear) slope = struts.slope(strut);
+      if (struts.linear) {
+        slope = struts.slope(strut);
+        spread = struts.spread_of(strut);
+      }
     }
     uint64_t* const certain = certain_row(span.j, span.k);
     const uint64_t* const alive = alive_.row(alive_.y0 + span.j, alive_.z0 + span.k);
     for (uint32_t i = span.first; i < span.first + span.count; ++i) {
       const uint64_t bit = uint64_t{1} << (i % bits_per_word);
-      if (!(alive[i / bits_per_word] & ~certain[i / bits_per_word] & bit)) continue;
+      uint64_t& word = certain[i / bits_per_word];
+      if (!(alive[i / bits_per_word] & ~word & bit)) continue;
       const Vec3 p{grid.x(i), y_[span.j], z_[span.k]};
       const Vec3 from_a = p - a;
       const double t = std::clamp(dot(from_a, ab) * inverse_squared, 0.0, 1.0);
       const Vec3 away = from_a - ab * t;
       const double squared = dot(away, away);
+      bool is_queried = true;
       if (struts.linear) {
         // Samples in the strut are in its reach, where these bounds hold. So are those within its
-        // maximum radius.
+        // maximum radius. All outcomes are frequent: there is no branch.
         const double about = struts.at_a[strut] + dot(slope, from_a);
-        const double departure = struts.departure[strut];
+        const Vec3 from_middle = from_a - ab * 0.5;
+        const double departure = struts.departure[strut] + spread.x * std::abs(from_middle.x) +
+                                 spread.y * std::abs(from_middle.y) +
+                                 spread.z * std::abs(from_middle.z);
         const double thick = std::min(about + departure, struts.high[strut]) + margin;
         const double thin = std::min(about - departure, struts.high[strut]) - margin;
-        if (thick < 0 || squared > thick * thick) continue;
-        if (thin > 0 && squared < thin * thin) {
-          certain[i / bits_per_word] |= bit;
-          continue;
-        }
+        const bool is_inside = (thin > 0) & (squared < thin * thin);
+        word |= is_inside ? bit : 0;
+        is_queried = !is_inside & !((thick < 0) | (squared > thick * thick));
       }
-      if (queried.count == Queried::capacity) decide(queried, margin, find_radii);
       queried.points[queried.count] = p;
       queried.squared[queried.count] = squared;
-      queried.samples[queried.count++] = {i, span.j, span.k};
+      queried.samples[queried.count] = {i, span.j, span.k};
+      queried.count += is_queried;
+      if (queried.count == Queried::capacity) decide(queried, margin, find_radii);
     }
   }
   if (queried.count > 0) decide(queried, margin, find_radii);
@@ -172,7 +193,9 @@ template <class Draw, class Holds>
 void SpanRaster::add_solids(double margin, Draw&& draw, Holds&& holds) {
   doubtful_.clear();
   draw(target(margin), doubtful_);
-  for (const DoubtfulSpan& span : doubtful_) {
+  for (size_t n = 0; n < doubtful_.size(); ++n) {
+    prefetch(n + doubts_ahead);
+    const DoubtfulSpan& span = doubtful_[n];
     uint64_t* const certain = certain_row(span.j, span.k);
     const uint64_t* const alive = alive_.row(alive_.y0 + span.j, alive_.z0 + span.k);
     for (uint32_t i = span.first; i < span.first + span.count; ++i) {

@@ -17,16 +17,19 @@ struct StrutBatch {
   size_t count = 0;
   double a[3][capacity + padding], b[3][capacity + padding];
   double low[capacity + padding], high[capacity + padding];
-  /// If `linear`: at points in a strut's reach, the radius differs from at_a + dot(gradient, p - a)
-  /// by at most `departure`.
-  static constexpr double max_gradient = 0.5;  // of each component
+  /// If `linear`: at points p in a strut's reach, the radius differs from
+  /// at_a + dot(gradient, p - a) by at most departure + dot(spread, |p - m|), where m is the middle
+  /// of the strut and |.| takes the magnitude of each component.
+  static constexpr double max_slope = 0.5;  // of each component of `gradient` and `spread`
   bool linear = false;
-  double gradient[3][capacity + padding], at_a[capacity + padding], departure[capacity + padding];
+  double gradient[3][capacity + padding], at_a[capacity + padding];
+  double departure[capacity + padding], spread[3][capacity + padding];
 
   bool full() const { return count == capacity; }
   Vec3 from(size_t i) const { return {a[0][i], a[1][i], a[2][i]}; }
   Vec3 to(size_t i) const { return {b[0][i], b[1][i], b[2][i]}; }
   Vec3 slope(size_t i) const { return {gradient[0][i], gradient[1][i], gradient[2][i]}; }
+  Vec3 spread_of(size_t i) const { return {spread[0][i], spread[1][i], spread[2][i]}; }
   void push(Vec3 from, Vec3 to) {
     for (int axis = 0; axis < 3; ++axis) {
       a[axis][count] = from[axis];

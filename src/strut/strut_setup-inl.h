@@ -56,8 +56,9 @@ struct StrutSetups {
   float signed_ux2[room];                            // ux |ux|
   float inverse_across[room];                        // 1 / (uy^2 + uz^2)
   float high2[room], low2[room];                     // squared radii; low2 negative: no inner span
-  // Of a linear radius: its gradient, its value at a, and what it may differ by along a row.
-  float gradient[3][room], radius_a[room], spread[room];
+  // Of a linear radius: its gradient, its value at a, and what it may differ by along a row: a
+  // number and, for each axis, a part of the distance from the strut's middle.
+  float gradient[3][room], radius_a[room], departure[room], spread[3][room];
   float error[room], root_error[room], end_error[room];  // E, sqrt(E); see fast_spans-inl.h
 };
 
@@ -173,8 +174,8 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
                                       hn::Set(d, 2.0), hn::Set(d, 4.0));
     const V choice = hn::MulAdd(hn::Mul(choices, along),
                                 hn::MulAdd(along, hn::Set(d, 1.05), hn::Set(d, 0.95)), one);
-    // If the radius is linear, its value at a sample has an error, too.
-    const V room = hn::Mul(choice, hn::Set(d, batch.linear ? 1.5 : 1.0));
+    // If the radius is linear, its value at a sample and its bounds have an error, too.
+    const V room = hn::Mul(choice, hn::Set(d, batch.linear ? 2.0 : 1.0));
     const V error = hn::Mul(squared_error, room);
     const V end_error = hn::MulAdd(hn::Set(d, 32 * u), hn::MulAdd(whole, inverse_across, one),
                                    hn::Set(d, target.slack));
@@ -251,15 +252,18 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(hn::Sqrt(hn::Mul(error, hn::Set(d, 1.01))), setups.root_error);
     put(end_error, setups.end_error);
     if (!batch.linear) continue;
-    const V gx = hn::LoadU(d, batch.gradient[0] + i);
-    const V along_row = hn::Mul(hn::Mul(r, hn::Sqrt(inverse_across)), hn::Abs(gx));
-    const V spread =
-        hn::Mul(hn::MulAdd(hn::LoadU(d, batch.departure + i), scale, along_row), hn::Set(d, 1.01));
-    put(gx, setups.gradient[0]);
-    put(hn::LoadU(d, batch.gradient[1] + i), setups.gradient[1]);
-    put(hn::LoadU(d, batch.gradient[2] + i), setups.gradient[2]);
+    const V generously = hn::Set(d, 1.01);
+    const V along_row = hn::Mul(r, hn::Sqrt(inverse_across));
+    const V slopes =
+        hn::Add(hn::Abs(hn::LoadU(d, batch.gradient[0] + i)), hn::LoadU(d, batch.spread[0] + i));
+    const V departure =
+        hn::MulAdd(hn::LoadU(d, batch.departure + i), scale, hn::Mul(along_row, slopes));
     put(hn::Mul(hn::LoadU(d, batch.at_a + i), scale), setups.radius_a);
-    put(spread, setups.spread);
+    put(hn::Mul(departure, generously), setups.departure);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      put(hn::LoadU(d, batch.gradient[axis] + i), setups.gradient[axis]);
+      put(hn::Mul(hn::LoadU(d, batch.spread[axis] + i), generously), setups.spread[axis]);
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/simd.h"
 #include "structure/beams/beam.h"
 
 namespace msq {
@@ -46,10 +47,8 @@ class BeamList {
     return {kept.a, kept.b, kept.radius_a, kept.radius_b, caps[0], caps[1]};
   }
   /// Prefetches beams [begin, end), which at() will read soon.
-  void prefetch([[maybe_unused]] size_t begin, [[maybe_unused]] size_t end) const {
-#if defined(__GNUC__)
-    for (size_t i = begin; i < end; ++i) __builtin_prefetch(kept_.data() + i);
-#endif
+  HWY_INLINE void prefetch(size_t begin, size_t end) const {
+    for (size_t i = begin; i < end; ++i) hwy::Prefetch(kept_.data() + i);
   }
   /// Several threads may set different beams at once.
   void set(size_t i, const Beam& beam) {

@@ -241,18 +241,10 @@ class RowDrawing {
     hn::Store(i0, d, columns[1]);
     hn::Store(i1, d, columns[2]);
     hn::Store(x1, d, columns[3]);
-    for (; doubtful; doubtful &= doubtful - 1) {
-      const size_t l = static_cast<size_t>(std::countr_zero(doubtful));
-      const auto add = [&](float from, float to) {
-        if (from >= to) return;
-        doubts_.push_back({number, static_cast<uint32_t>(j + l % shape.wide),
-                           static_cast<uint32_t>(k + l / shape.wide),
-                           static_cast<uint32_t>(column + static_cast<int32_t>(from)),
-                           static_cast<uint32_t>(to - from)});
-      };
-      add(columns[0][l], columns[1][l]);
-      add(columns[2][l] + 1, columns[3][l] + 1);
-    }
+    add_doubtful_lanes(columns, shape.wide,
+                       {number, static_cast<uint32_t>(j), static_cast<uint32_t>(k),
+                        static_cast<uint32_t>(column), 0},
+                       doubtful, doubts_);
   }
 
   const RasterTarget& target_;

@@ -32,6 +32,7 @@ struct RadiusBounds::Work {
   Interval range;         // of all radii
   bool is_known = false;  // at_middle
   double at_middle[StrutBatch::capacity];
+  double most_departure[StrutBatch::capacity];  // at any point in a strut's reach
   size_t order[StrutBatch::capacity];  // of the struts, so that those of a part are near each other
 
   /// Orders struts begin ... end - 1 along the longest side of their box, as far as halves need.
@@ -65,9 +66,12 @@ void RadiusBounds::set(StrutBatch& batch, double factor) const {
   std::fill_n(batch.high, batch.count, range.high);
   if (radius_.is_constant() || batch.count == 0) return;
   std::fill_n(batch.at_a, batch.count, 0.5 * (range.low + range.high));
-  std::fill_n(batch.departure, batch.count, 0.5 * (range.high - range.low) + 0x1p-46 * range.high);
-  for (auto& slope : batch.gradient) std::fill_n(slope, batch.count, 0.0);
-  Work work{batch, factor, range, false, {}, {}};
+  const double departure = 0.5 * (range.high - range.low) + 0x1p-46 * range.high;
+  std::fill_n(batch.departure, batch.count, departure);
+  for (auto* slopes : {&batch.gradient, &batch.spread})
+    for (auto& slope : *slopes) std::fill_n(slope, batch.count, 0.0);
+  Work work{batch, factor, range, false, {}, {}, {}};
+  std::fill_n(work.most_departure, batch.count, departure);
   std::iota(work.order, work.order + batch.count, size_t{0});
   bound(work, 0, batch.count, std::numeric_limits<double>::infinity());
 }
@@ -96,6 +100,7 @@ void RadiusBounds::bound(Work& work, size_t begin, size_t end, double before) co
     bound(work, half, end, left - first);
     return;
   }
+  if (slopes) return;
   for (size_t n = begin; n < end; ++n)
     if (in_doubt[work.order[n]] > range_cost) use_range(work, work.order[n]);
 }
@@ -115,10 +120,10 @@ void RadiusBounds::use_slopes(Work& work, const Slopes& slopes, size_t begin, si
     work.is_known = true;
   }
   const Vec3 least = slopes.between.min * work.factor, most = slopes.between.max * work.factor;
-  constexpr double steepest = 0.99 * StrutBatch::max_gradient;
+  constexpr double steepest = 0.99 * StrutBatch::max_slope;
   const Vec3 bound{steepest, steepest, steepest};
   const Vec3 gradient = min(max((least + most) * 0.5, bound * -1), bound);
-  const Vec3 apart = max(most - gradient, gradient - least);
+  const Vec3 apart = max(most - gradient, gradient - least), spread = min(apart, bound);
   const Vec3 steep = max(magnitude(least), magnitude(most)), slope = magnitude(gradient);
   const double rounding = 2 * work.factor * slopes.rounding;
   const auto grown = [](Vec3 v, double by) { return v + Vec3{by, by, by}; };
@@ -132,13 +137,18 @@ void RadiusBounds::use_slopes(Work& work, const Slopes& slopes, size_t begin, si
         (middle + dot(steep, grown(half, reach(work.range.high)))) * (1 + 0x1p-40) + rounding);
     const Vec3 around = grown(half, reach(high));
     const double along = dot(slope, around);
-    const double departure =
-        dot(apart, around) * (1 + 0x1p-40) + rounding + 0x1p-46 * (middle + along);
-    if (!(departure < batch.departure[i])) continue;
+    const double at_middle = dot(apart, around) * 0x1p-40 + dot(apart - spread, around) + rounding +
+                             0x1p-46 * (middle + along);
+    const double departure = dot(spread, around) + at_middle;
+    if (!(departure < work.most_departure[i])) continue;
     batch.linear = true;
-    batch.departure[i] = departure;
+    work.most_departure[i] = departure;
+    batch.departure[i] = at_middle;
     batch.at_a[i] = middle - 0.5 * dot(gradient, ab);
-    for (int axis = 0; axis < 3; ++axis) batch.gradient[axis][i] = gradient[axis];
+    for (int axis = 0; axis < 3; ++axis) {
+      batch.gradient[axis][i] = gradient[axis];
+      batch.spread[axis][i] = spread[axis];
+    }
     batch.low[i] = std::max(work.range.low, middle - along - departure);
     batch.high[i] = std::min(high, middle + along + departure);
   }
@@ -151,10 +161,11 @@ void RadiusBounds::use_range(Work& work, size_t strut) const {
   batch.high[strut] = std::min(batch.high[strut], work.factor * range.high);
   const double middle = 0.5 * (batch.low[strut] + batch.high[strut]);
   const double departure = 0.5 * (batch.high[strut] - batch.low[strut]) + 0x1p-46 * middle;
-  if (departure > batch.departure[strut]) return;
+  if (departure > work.most_departure[strut]) return;
+  work.most_departure[strut] = departure;
   batch.departure[strut] = departure;
   batch.at_a[strut] = middle;
-  for (int axis = 0; axis < 3; ++axis) batch.gradient[axis][strut] = 0;
+  for (int axis = 0; axis < 3; ++axis) batch.gradient[axis][strut] = batch.spread[axis][strut] = 0;
 }
 
 double RadiusBounds::doubts(const StrutBatch& batch, size_t strut) const {
@@ -169,7 +180,10 @@ double RadiusBounds::doubts(const StrutBatch& batch, size_t strut) const {
         std::min(all.max[axis], samples_.max[axis]) - std::max(all.min[axis], samples_.min[axis]);
     if (within < size) part *= std::max(within, 0.0) / size;
   }
-  return 4 * pi * radius * (length(b - a) + 2 * radius) * batch.departure[strut] * part;
+  const Vec3 from_middle = magnitude(b - a) * 0.25 + Vec3{radius, radius, radius};
+  const double departure =
+      batch.departure[strut] + (batch.linear ? dot(batch.spread_of(strut), from_middle) : 0);
+  return 4 * pi * radius * (length(b - a) + 2 * radius) * departure * part;
 }
 
 }  // namespace msq

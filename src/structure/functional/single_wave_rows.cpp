@@ -164,6 +164,7 @@ void SingleWaveRows::keep_row(const std::vector<WaveColumns::Window>& windows,
     if (!mark_wave(window.sets, levels, row, result_.data() + first, doubt_.data())) continue;
     const size_t end = std::min(words_ - first, WaveColumns::window_words);
     for (size_t w = 0; w < end; ++w) {
+      if (!doubt_[w]) continue;
       const uint64_t doubt = doubt_[w] & alive(words, first + w);
       if (!doubt) continue;
       result_[first + w] |= decide_doubtful(
