@@ -738,10 +738,10 @@ MSQ_API msq_status msq_shape_from_cylinder(msq_context* context, const double fr
  *
  * A model of all space is queried like any other, with these differences. The limits of 2^24 cells
  * from the origin of a structure's grid and of 1e75 for coordinates apply to the points of each
- * query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region. Rays
- * need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if
- * they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are
- * -1.8e308. Errors: ARGUMENT, MEMORY. */
+ * query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region, and
+ * contours need a window. Rays need a finite t_max. Pictures need a finite clip_far, no shadows,
+ * and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no
+ * structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY. */
 MSQ_API msq_status msq_shape_all_space(msq_context* context, msq_shape** shape);
 
 /** Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary.

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/simd.h"
 #include "base/status.h"
+#include "query/reach.h"
 #include "slice/contour_details.h"
 #include "slice/contour_gaps.h"
 #include "slice/contour_line.h"
@@ -287,6 +288,8 @@ void Contours::close(ContourNumbers& room) {
 
 Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* job) {
   JobScope scope(job);
+  if (!plan.has_window && !model.shape().is_bounded())
+    fail(Status::argument, "has_window is 0; a model of all space has no bounds, so give a window");
   const double pitch = three_digits(plan.pitch > 0 ? plan.pitch : plan.tolerance);
   Ref<Contours> out = make_ref<Contours>(plan.format, plan.topology_samples);
   out->set_pitch(pitch);
@@ -301,6 +304,9 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   check_sides(margin, pitch, low, high);
   const Scales resolved = model.resolved(plan.length_scale);
   ContourGrid grid(plan.plane, low, high, pitch);
+  require_reach(model, resolved,
+                Box3{plan.plane.at(low[0], low[1]), plan.plane.at(high[0], high[1])}.grown(pitch),
+                "the window");
   const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
   const Reservation nodes(budget, grid.bytes(model, resolved), "the nodes of a layer");
   ContourPoints points(model, resolved, plan.plane, job);

@@ -170,6 +170,45 @@ static void slicers_need_a_region(void** state) {
   assert_makes_nothing(msq_slicer, msq_slicer_create(all, &def, &made), MSQ_E_LIMIT, "the region");
 }
 
+/* The contours of both models at a height, which are the same. */
+static void assert_same_contours(const msq_contours_def* def, double height) {
+  msq_contours *a, *b;
+  msq_contours_report of_all = {.struct_size = sizeof of_all}, of_box = of_all;
+  assert_ok(msq_layer_contours(all, height, def, &a, NULL));
+  assert_ok(msq_layer_contours(boxed, height, def, &b, NULL));
+  assert_ok(msq_contours_info(a, &of_all));
+  assert_ok(msq_contours_info(b, &of_box));
+  assert_true(of_all.ring_count > 0);
+  assert_int_equal(of_all.point_count, of_box.point_count);
+  assert_memory_equal(of_all.points, of_box.points, of_all.point_count * sizeof(double[2]));
+  msq_contours_release(a);
+  msq_contours_release(b);
+}
+
+static void contours_need_a_window(void** state) {
+  const double most = 16777216;
+  msq_contours_def def;
+  (void)state;
+  assert_ok(msq_contours_def_init(&def, sizeof def));
+  def.type = MSQ_FLOAT64;
+  def.tolerance = 0.05;
+  assert_makes_nothing(msq_contours, msq_layer_contours(all, 0.25, &def, &made, NULL),
+                       MSQ_E_ARGUMENT, "has_window is 0");
+  def.has_window = 1;
+  for (int i = 0; i < 2; ++i) def.window_max[i] = 3;
+  assert_same_contours(&def, 0.25);
+  assert_makes_nothing(msq_contours, msq_layer_contours(all, -most - 1, &def, &made, NULL),
+                       MSQ_E_LIMIT, "the window");
+  assert_message_has("1.67772e+07");
+  def.axis = 1;
+  assert_makes_nothing(msq_contours, msq_layer_contours(all, 1e80, &def, &made, NULL), MSQ_E_LIMIT,
+                       "1e+75");
+  def.window_min[1] = most - 1;
+  def.window_max[1] = most + 1;
+  assert_makes_nothing(msq_contours, msq_layer_contours(all, 0.25, &def, &made, NULL), MSQ_E_LIMIT,
+                       "axis 2");
+}
+
 static void rays_need_an_end(void** state) {
   const double origins[6] = {0.5, 0.1, 0.3, 2.2, 0.4, 0.3}, directions[6] = {1, 2, 3, 0, -0.5, 0};
   double t_max[2] = {10, INFINITY};
@@ -292,6 +331,7 @@ int main(void) {
       cmocka_unit_test(each_query_checks_the_cells),
       cmocka_unit_test(statistics_measure_the_sample),
       cmocka_unit_test(slicers_need_a_region),
+      cmocka_unit_test(contours_need_a_window),
       cmocka_unit_test(rays_need_an_end),
       cmocka_unit_test(pictures_need_an_end),
       cmocka_unit_test(it_has_no_surface),

@@ -2874,7 +2874,7 @@ namespace Msq.Interop
 
         /// <summary>Creates the shape that contains every point, for structures that the host clips itself. Its bounds and its volume are infinite. It has no surface, so no scale can leave a skin in it, and msq_field_shape_distance refuses it.</summary>
         /// <remarks>
-        /// <para>A model of all space is queried like any other, with these differences. The limits of 2^24 cells from the origin of a structure's grid and of 1e75 for coordinates apply to the points of each query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.</para>
+        /// <para>A model of all space is queried like any other, with these differences. The limits of 2^24 cells from the origin of a structure's grid and of 1e75 for coordinates apply to the points of each query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region, and contours need a window. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]

@@ -2208,7 +2208,7 @@ extern "C" {
     pub fn msq_shape_from_cylinder(context: *mut msq_context, from: *const f64, to: *const f64, radius: f64, shape: *mut *mut msq_shape) -> msq_status;
     /// Creates the shape that contains every point, for structures that the host clips itself. Its bounds and its volume are infinite. It has no surface, so no scale can leave a skin in it, and msq_field_shape_distance refuses it.
     ///
-    /// A model of all space is queried like any other, with these differences. The limits of 2^24 cells from the origin of a structure's grid and of 1e75 for coordinates apply to the points of each query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.
+    /// A model of all space is queried like any other, with these differences. The limits of 2^24 cells from the origin of a structure's grid and of 1e75 for coordinates apply to the points of each query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region, and contours need a window. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.
     pub fn msq_shape_all_space(context: *mut msq_context, shape: *mut *mut msq_shape) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_host_shape_def_init(def: *mut msq_host_shape_def, size: usize) -> msq_status;
