@@ -1262,8 +1262,9 @@ MSQ_API msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size);
  * seconds for thousands of struts as wide as cells, and the same again for the first array or
  * distance. With a period or a warp: the struts near a cell are found when the cell is first
  * evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius
- * times the greatest factor above 4 times the smallest cell size; library too large), MEMORY,
- * UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells). */
+ * times the greatest factor above 4 times the smallest cell size; cell sizes that differ by more
+ * than 2^20 times; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of
+ * them with a library of several unit cells). */
 MSQ_API msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def,
                                          msq_structure** structure);
 
@@ -1372,7 +1373,8 @@ MSQ_API msq_status msq_plate_lattice_def_init(msq_plate_lattice_def* def, size_t
  * Cost: proportional to the plates that can reach one cell: milliseconds for the named cells,
  * seconds for thousands of plates as thick as cells, and the same again for the first array, slice
  * or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the
- * greatest factor, above 4 times the smallest cell size), MEMORY. Source: Tancogne-Dejean et al.
+ * greatest factor, above 4 times the smallest cell size; cell sizes that differ by more than 2^20
+ * times), MEMORY. Source: Tancogne-Dejean et al.
  * 2018; Berger, Wadley and McMeeking 2017. */
 MSQ_API msq_status msq_structure_plate_lattice(msq_context* context,
                                                const msq_plate_lattice_def* def,

@@ -137,6 +137,8 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
         fail(Status::unsupported,
              "a period is given, and a library of %zu unit cells; a lattice with a period has one",
              library.size());
+      for (const double size : {period->smallest(), period->largest()})
+        require_proportions(period->resized(grid, size));
       places = std::make_unique<const GradedPlaces>(grid, *std::move(period));
     }
     msq_warp_def known_warp;
@@ -152,6 +154,7 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
       else
         places = std::make_unique<const RoundPlaces>(*map.round);
     }
+    if (!places) require_proportions(grid);
     double max_factor = 0;
     for (const UnitCell& cell : library)
       for (size_t s = 0; s < cell.struts.size(); ++s)

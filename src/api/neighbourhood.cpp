@@ -73,6 +73,14 @@ Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
   return read;
 }
 
+void require_proportions(const Neighbourhood& grid) {
+  constexpr double most = 1 << 20;
+  const double ratio = max_component(grid.cell_size) / min_component(grid.cell_size);
+  if (ratio > most)
+    fail(Status::limit, "cell sizes of a lattice differ by %g times; the limit is %.0f", ratio,
+         most);
+}
+
 }  // namespace msq::api
 
 using namespace msq;

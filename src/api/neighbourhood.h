@@ -15,4 +15,8 @@ Rotation read_rotation(const double (&matrix)[9], const char* name);
 /// Throws Error(argument) where the grid makes no sense.
 Neighbourhood read_neighbourhood(const msq_neighbourhood& grid);
 
+/// Throws Error(limit) where the cells of a lattice are so flat or so long that the rounding of its
+/// longest side, in a turned grid, is a part of the shortest.
+void require_proportions(const Neighbourhood& grid);
+
 }  // namespace msq::api

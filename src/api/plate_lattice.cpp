@@ -192,6 +192,7 @@ msq_status msq_structure_plate_lattice(msq_context* context, const msq_plate_lat
     const msq_plate_lattice_def known = read_def(def, plate_lattice_defaults(), "def");
     require_reserved(known.reserved, "reserved");
     const Neighbourhood grid = read_neighbourhood(known.grid);
+    require_proportions(grid);
     const PlateCell cell = read_plates(known, grid.cell_size);
     Parameter thickness = read_plate_thickness(known.thickness, grid, cell);
     if (!has_struts(known) && (known.struts || known.strut_factors))

@@ -313,7 +313,9 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   std::optional<LayerStruts> struts;
   if (gives_struts(resolved, pitch)) {
     const Structure& structure = *resolved[0]->structure;
-    struts.emplace(model, structure, grid, 2 * plan.tolerance, job);
+    // Points lie in the window, however large the tolerance is.
+    const double size = std::max(high[0] - low[0], high[1] - low[1]);
+    struts.emplace(model, structure, grid, 2 * std::min(plan.tolerance, size), job);
     points.use_struts(struts->all);
     // Else rows of lattices cost less.
     if (structure.gains_by_layers())

@@ -75,6 +75,9 @@ static void lattices(void** state) {
     WRONG(ARGUMENT, "strut_count is 0|8", def->strut_count = 0);
     for (int i = 0; i < 6; ++i)
       WRONG(ARGUMENT, "the factor of strut 5|from 0.001 to 1000", factors[5] = refused[i]);
+    RIGHT(def->grid.cell_size[1] = 1048576);
+    WRONG(LIMIT, "differ by 1.04858e+06 times|the limit is 1048576",
+          def->grid.cell_size[1] = 1048577);
     RIGHT(factors[5] = 40); /* 4 times the smallest cell size */
     WRONG(LIMIT, "greatest strut factor|the limit is 4", factors[5] = 40.0009765625);
     if (TRY(msq_structure_lattice(context, def, structure))) msq_structure_release(*structure);
@@ -91,6 +94,7 @@ static void lattices(void** state) {
     period.positions = positions;
     period.cell_sizes = sizes;
     period.count = 2;
+    WRONG(LIMIT, "differ by 2e+06 times", def->period = &period; def->grid.cell_size[1] = 1e6);
     assert_ok(msq_warp_def_init(&warp, sizeof warp));
     warp.count = 3;
     RIGHT(def->period = &period);
@@ -178,8 +182,8 @@ static void plate_lattices(void** state) {
           def->strut_count = 2);
     WRONG(ARGUMENT, "unit_cell is 9", def->radius.value = 0.1; def->unit_cell = 9);
     WRONG(ARGUMENT, "node_count is 0", def->radius.value = 0.1; def->unit_cell = 0);
-    WRONG(ARGUMENT, "face 0, in model units, has|at least 1e-05", def->grid.cell_size[1] = 1e-9;
-          def->grid.cell_size[0] = 1e-9; def->thickness.value = 1e-9);
+    WRONG(ARGUMENT, "face 0, in model units, has|at least 1e-05", def->grid.cell_size[1] = 1e-6;
+          def->grid.cell_size[0] = 1e-6; def->thickness.value = 1e-6);
     WRONG(ARGUMENT, "def is NULL", def = NULL);
     if (TRY(msq_structure_plate_lattice(in, def, structure))) msq_structure_release(*structure);
   }
@@ -190,6 +194,7 @@ static void plate_lattices(void** state) {
     const double numbers[4] = {0, -0.5, NAN, INFINITY};
     for (int i = 0; i < 4; ++i) WRONG(ARGUMENT, "thickness is ", def->thickness.value = numbers[i]);
     RIGHT(def->thickness.value = 1);
+    WRONG(LIMIT, "cell sizes of a lattice differ by 4e+08 times", def->grid.cell_size[2] = 1e8);
     WRONG(LIMIT, "thickness reaches 1.00098|the limit is 1 ", def->thickness.value = 1.0009765625);
     WRONG(ARGUMENT, "thickness|-0.25", def->thickness.field = fields[0]);
     WRONG(ARGUMENT, "thickness|0 everywhere", def->thickness.field = fields[1]);

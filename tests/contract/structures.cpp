@@ -523,6 +523,14 @@ std::vector<StructureRow> structures() {
       std::erase_if(variants, [](const GridVariant& v) {
         return v.name.find("uneven") != std::string::npos;
       });
+    // Rows of functional structures are found in other ways if they lie along the axis or across
+    // it.
+    if (kind.family == "warped") {
+      variants.push_back(
+          {"axis along x", {{0, 0.5, 0}, {1, 1, 1}, {{0, 0, 1, 1, 0, 0, 0, 1, 0}}}, true});
+      variants.push_back(
+          {"axis along y", {{0, 0.5, 0}, {1, 1, 1}, {{0, 1, 0, 0, 0, 1, 1, 0, 0}}}, true});
+    }
     // Slow builds take one grid for each kind, all grids in turn.
     if (test_scale() < 0.05) variants = {variants[number % variants.size()]};
     ++number;

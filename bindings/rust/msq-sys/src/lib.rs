@@ -2300,7 +2300,7 @@ extern "C" {
     ///
     /// Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell has the struts of the unit cell that cell_choice selects. If the nodes of two unlike neighbouring cells do not match (msq_lattice_faces), struts end at the face.
     ///
-    /// Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. With a period or a warp: the struts near a cell are found when the cell is first evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells).
+    /// Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. With a period or a warp: the struts near a cell are found when the cell is first evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; cell sizes that differ by more than 2^20 times; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells).
     pub fn msq_structure_lattice(context: *mut msq_context, def: *const msq_lattice_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.
     ///
@@ -2312,7 +2312,7 @@ extern "C" {
     ///
     /// A plate has its thickness in model units for any cell size, has a round rim, and reaches across cell borders. Faces that coincide in several copies count once, with the greatest of their factors. Lattices of plates alone have an onset, which is a thickness. Those with struts have none, so msq_structure_calibrate refuses them.
     ///
-    /// Cost: proportional to the plates that can reach one cell: milliseconds for the named cells, seconds for thousands of plates as thick as cells, and the same again for the first array, slice or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the greatest factor, above 4 times the smallest cell size), MEMORY. Source: Tancogne-Dejean et al. 2018; Berger, Wadley and McMeeking 2017.
+    /// Cost: proportional to the plates that can reach one cell: milliseconds for the named cells, seconds for thousands of plates as thick as cells, and the same again for the first array, slice or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the greatest factor, above 4 times the smallest cell size; cell sizes that differ by more than 2^20 times), MEMORY. Source: Tancogne-Dejean et al. 2018; Berger, Wadley and McMeeking 2017.
     pub fn msq_structure_plate_lattice(context: *mut msq_context, def: *const msq_plate_lattice_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_foam_def_init(def: *mut msq_foam_def, size: usize) -> msq_status;
