@@ -441,6 +441,12 @@ std::vector<Kind> kinds() {
   kinds.push_back({"combined", "walls without struts", 0.1, 1,
                    boolean_factory(Operation::subtracted, walls_factory(1),
                                    lattice_factory(cubic_unit_cell()))});
+  kinds.push_back(
+      {"combined", "plates or walls", 0.1, 1,
+       boolean_factory(Operation::united, plates_factory(cubic_plate_cell()), walls_factory(1))});
+  kinds.push_back({"combined", "walls without plates", 0.15, 1,
+                   boolean_factory(Operation::subtracted, walls_factory(1),
+                                   plates_factory(cubic_plate_cell()))});
   kinds.push_back(holding_beams({"combined", "nested", 0.1, 1, nested_factory()}));
   kinds.push_back({"blended", "BCC to gyroid", 0.15, 1,
                    blend_factory(lattice_factory(bcc_unit_cell()),
@@ -464,6 +470,11 @@ std::vector<Kind> kinds() {
                      boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
                                      beams_factory(BeamSort::cones)),
                      0, 1)}));
+  kinds.push_back({"blended", "plates to walls", 0.15, 1,
+                   blend_factory(plates_factory(cubic_plate_cell()), walls_factory(1), 0.2, 0.8)});
+  kinds.push_back({"smooth", "plates or walls", 0.1, 1,
+                   smooth_factory(Operation::united, plates_factory(cubic_plate_cell()),
+                                  walls_factory(1), 0.05, 0.1)});
   kinds.push_back({"smooth", "BCC or gyroid", 0.12, 1,
                    smooth_factory(Operation::united, lattice_factory(bcc_unit_cell()),
                                   functional_factory(preset_expressions[0], sheet, 0), 0.3, 0.3)});

@@ -42,6 +42,19 @@ void check_together(const char* name, const Shape& shape, const std::vector<RayS
   }
 }
 
+/// Where normals of the points at which rays enter point to.
+struct Normals {
+  int outward = 0, inward = 0;
+
+  void add(const Shape& shape, Vec3 p, Vec3 normal) {
+    const double by =
+        std::max(8 * shape.ray_tolerance(), 1e-6 * max_component(shape.bounds().extent()));
+    const bool before = shape.inside(p + normal * by), behind = shape.inside(p - normal * by);
+    outward += behind && !before;
+    inward += before && !behind;
+  }
+};
+
 void test_row(void** state) {
   const ShapeRow& row = *static_cast<const ShapeRow*>(*state);
   const Ref<const Shape> shape = row.make();
@@ -49,6 +62,7 @@ void test_row(void** state) {
   const Box3 around = box.grown(0.3 * max_component(box.extent()));
   Random random(5);
   int entries = 0;
+  Normals normals;
   std::vector<RaySearch> searches;
   // Hosts' shapes are marched through by their distance, which is dear; so are images along the
   // faces of their cells.
@@ -77,12 +91,16 @@ void test_row(void** state) {
     // Parts that are shorter than the steps of a march may be lost.
     const RayWalk walk{
         is_marched || (is_image && is_even) ? shape->min_ray_step() : shape->ray_tolerance(), 150};
+    bool is_first = true;  // there may be many at one edge
     entries += check_ray(
         row.name.c_str(), ray, 0, reach, walk, [&](Vec3 p) { return shape->inside(p); },
         [&](const Ray& r, double from, double to, double& t) {
           if (!shape->enter(r, from, to, t, nullptr)) return false;
-          const double normal = length(shape->normal(r, t));
-          if (!(std::abs(normal - 1) < 1e-9)) fail_msg("a normal of length %.17g", normal);
+          const Vec3 normal = shape->normal(r, t);
+          if (!(std::abs(length(normal) - 1) < 1e-9))
+            fail_msg("a normal of length %.17g", length(normal));
+          if (t > from && is_first) normals.add(*shape, r.at(t), normal);
+          is_first = false;
           return true;
         },
         [&](const Ray& r, double from, double to) { return shape->leave(r, from, to, nullptr); });
@@ -90,6 +108,8 @@ void test_row(void** state) {
   // Some rules leave nothing of some meshes, some thresholds little of an image.
   if (row.least > (is_image ? 0.05 : 0) && !is_marched && count >= 60)
     assert_true(entries > static_cast<int>(count / 20));
+  if (normals.inward * 50 > normals.outward)
+    fail_msg("%d normals point out, and %d in", normals.outward, normals.inward);
   check_together(row.name.c_str(), *shape, searches);
 }
 
