@@ -133,6 +133,33 @@ void refuses_files_without_triangles(void**) {
     assert_refused(file.content, file.format, Status::mesh, {"no triangles"});
 }
 
+/// Of formats that are read, kinds of files that are not.
+void refuses_other_kinds_of_files(void**) {
+  const struct {
+    MeshFormat format;
+    std::string content;
+    Status status;
+    std::vector<std::string> words;
+  } files[] = {{MeshFormat::off, "OFF BINARY\n", Status::unsupported, {"OFF", "binary"}},
+               {MeshFormat::ply,
+                "ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_indices\n"
+                "end_header\n3 0 1 2\n",
+                Status::io,
+                {"PLY", "count", "float"}},
+               {MeshFormat::ply,
+                "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\n"
+                "end_header\n3 0 1 2\n",
+                Status::unsupported,
+                {"PLY", "triangle strips"}},
+               {MeshFormat::amf, "<mesh/>", Status::io, {"AMF", "<mesh>"}},
+               {MeshFormat::threemf,
+                threemf("", "<object id=\"1\">" + threemf_mesh() + "</object>",
+                        "<item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0 0 9\"/>"),
+                Status::io,
+                {"3MF", "more than 12"}}};
+  for (const auto& file : files) assert_refused(file.content, file.format, file.status, file.words);
+}
+
 void refuses_truncated_stl(void**) {
   const std::string file = stl_binary();
   assert_refused(file.substr(0, 683), MeshFormat::stl, Status::io, {"684", "683"});
@@ -285,6 +312,7 @@ int main() {
       cmocka_unit_test(refuses_bad_indices),
       cmocka_unit_test(refuses_vertices_that_are_not_finite),
       cmocka_unit_test(refuses_files_without_triangles),
+      cmocka_unit_test(refuses_other_kinds_of_files),
       cmocka_unit_test(refuses_truncated_stl),
       cmocka_unit_test(refuses_claims_that_do_not_fit),
       cmocka_unit_test(refuses_archives_that_unpack_to_too_much),
