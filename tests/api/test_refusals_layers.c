@@ -408,7 +408,10 @@ static void contours(void** state) {
     WRONG(ARGUMENT, "length_scale is -2", def->length_scale = -2);
     WRONG(LIMIT, "the limit is 2147483392", def->tolerance = 1e-9);
     WRONG(LIMIT, "memory_limit", model = plain_of_small);
-    WRONG(LIMIT, "inf nodes|along x", model = everywhere);
+    WRONG(ARGUMENT, "has_window is 0", model = everywhere);
+    WRONG(LIMIT, "the window reaches|the limit is", model = everywhere; def->has_window = 1;
+          def->window_min[0] = def->window_min[1] = 2e7;
+          def->window_max[0] = def->window_max[1] = 2e7 + 4);
     WRONG(CANCELLED, "cancelled", job = cancelled_job());
     WRONG(ARGUMENT, "def is NULL", def = NULL);
     if (TRY(msq_layer_contours(model, height, def, contours, job))) msq_contours_release(*contours);
