@@ -78,6 +78,27 @@ msq_model* make_walls(msq_context* context, int cells) {
   return bench::make_model(context, bench::make_cube(context), foam);
 }
 
+/// A foam whose radius is an expression.
+msq_model* make_waving_foam(msq_context* context, int cells) {
+  msq_expression_field_def waves;
+  check(msq_expression_field_def_init(&waves, sizeof waves));
+  const msq_named_value parameters[] = {{"cells", static_cast<double>(cells)}};
+  waves.expression = "(0.1 + 0.05*sin(5*x)*cos(4*y + 3*z)) / cells";
+  waves.parameters = parameters;
+  waves.parameter_count = 1;
+  waves.high = 0.15 / cells;
+  msq_field* radius;
+  check(msq_field_expression(context, &waves, &radius));
+  msq_foam_def def;
+  check(msq_foam_def_init(&def, sizeof def));
+  for (double& size : def.grid.cell_size) size = 1.0 / cells;
+  def.radius = {0, radius};
+  msq_structure* foam;
+  check(msq_structure_foam(context, &def, &foam));
+  msq_field_release(radius);
+  return bench::make_model(context, bench::make_cube(context), foam);
+}
+
 msq_model* make_waves(msq_context* context) {
   msq_waves_def def;
   check(msq_waves_def_init(&def, sizeof def));
@@ -294,6 +315,8 @@ std::vector<Kernel> kernels() {
   const auto picture = [](uint32_t size) { return [=](msq_model* m) { render(m, size); }; };
   return {
     {"foam: edges of bricks", build_edges}, {"foam: rows", with(foam(16), slices(32))},
+        {"foam: rows, radius by an expression",
+         with([](msq_context* c) { return make_waving_foam(c, 16); }, slices(32))},
         {"foam: points, one by one", with(foam(16, MSQ_FOAM_POINT), single(5000))},
         {"foam: points as a set", with(foam(8), set(20000))},
         {"foam: distances", with(foam(8), far(1000))}, {"foam: rays", with(foam(8), picture(96))},
