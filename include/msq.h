@@ -1374,8 +1374,7 @@ MSQ_API msq_status msq_plate_lattice_def_init(msq_plate_lattice_def* def, size_t
  * seconds for thousands of plates as thick as cells, and the same again for the first array, slice
  * or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the
  * greatest factor, above 4 times the smallest cell size; cell sizes that differ by more than 2^20
- * times), MEMORY. Source: Tancogne-Dejean et al.
- * 2018; Berger, Wadley and McMeeking 2017. */
+ * times), MEMORY. Source: Tancogne-Dejean et al. 2018; Berger, Wadley and McMeeking 2017. */
 MSQ_API msq_status msq_structure_plate_lattice(msq_context* context,
                                                const msq_plate_lattice_def* def,
                                                msq_structure** structure);

@@ -78,23 +78,30 @@ void make_shapes(D d, const RasterTarget& target, LaneShape* out) {
   }
 }
 
-/// Columns [x0, i0) and (i1, x1] of the doubtful lanes, of rows of `columns`; `wide` lanes lie side
-/// by side. `at`: the solid, the row and layer of lane 0, and the column that others count from.
-HWY_INLINE void add_doubtful_lanes(const float (&columns)[4][2 * max_simd_doubles], size_t wide,
-                                   const DoubtfulSpan& at, uint64_t doubtful,
-                                   DoubtfulSpans& doubts) {
-  DoubtfulSpan* next = doubts.room(4 * max_simd_doubles);
-  for (; doubtful; doubtful &= doubtful - 1) {
-    const size_t l = static_cast<size_t>(std::countr_zero(doubtful));
-    const uint32_t j = at.j + static_cast<uint32_t>(l % wide),
-                   k = at.k + static_cast<uint32_t>(l / wide);
+/// What is undecided of the doubtful lanes: columns [x0, x1], without [i0, i1] where they are sure.
+/// `at`: the solid, the row and layer of lane 0, and the column that others count from.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void add_doubts(D d, const LaneShape& shape, const DoubtfulSpan& at,
+                           hn::Mask<D> doubtful, hn::Mask<D> sure, V x0, V i0, V i1, V x1,
+                           DoubtfulSpans& doubts) {
+  const V one = hn::Set(d, 1.0f);
+  HWY_ALIGN float columns[4][2 * max_simd_doubles];
+  hn::Store(x0, d, columns[0]);
+  hn::Store(hn::IfThenElse(sure, i0, hn::Add(x1, one)), d, columns[1]);
+  hn::Store(hn::Add(hn::IfThenElse(sure, i1, x1), one), d, columns[2]);
+  hn::Store(hn::Add(x1, one), d, columns[3]);
+  DoubtfulSpan* next = doubts.room(2 * hn::Lanes(d));
+  for (uint64_t rest = bits_of(d, doubtful); rest; rest &= rest - 1) {
+    const size_t l = static_cast<size_t>(std::countr_zero(rest));
+    const uint32_t j = at.j + static_cast<uint32_t>(l % shape.wide),
+                   k = at.k + static_cast<uint32_t>(l / shape.wide);
     const auto add = [&](float from, float to) {
       *next = {at.strut, j, k, at.first + static_cast<uint32_t>(static_cast<int32_t>(from)),
                static_cast<uint32_t>(static_cast<int32_t>(to - from))};
       next += from < to;
     };
     add(columns[0][l], columns[1][l]);
-    add(columns[2][l] + 1, columns[3][l] + 1);
+    add(columns[2][l], columns[3][l]);
   }
   doubts.count(next);
 }
@@ -149,9 +156,6 @@ class FastSpans {
 
   template <class D>
   HWY_INLINE void add_vectors(D d, const LaneShape& shape, size_t strut, size_t begin, size_t end);
-  template <class D, class V = hn::Vec<D>>
-  HWY_INLINE void add_doubts(D d, const LaneShape& shape, size_t strut, size_t j, size_t k,
-                             hn::Mask<D> doubtful, V x0, V i0, V i1, V x1);
 
   const RasterTarget& target_;
   const StrutBatch& batch_;
@@ -294,29 +298,12 @@ HWY_INLINE void FastSpans<radii>::add_vectors(D d, const LaneShape& shape, size_
 
     const M decided = hn::And(sure, hn::And(hn::Eq(x0, i0), hn::Eq(x1, i1)));
     const M doubtful = hn::AndNot(decided, some);
-    if (!hn::AllFalse(d, doubtful)) {
-      const V beyond = hn::Add(x1, hn::Set(d, 1.0f));
-      add_doubts(d, shape, strut, j0 + j, k0 + k, doubtful, x0, hn::IfThenElse(sure, i0, beyond),
-                 hn::IfThenElse(sure, i1, x1), x1);
-    }
+    if (!hn::AllFalse(d, doubtful))
+      add_doubts(d, shape,
+                 {static_cast<uint32_t>(strut), static_cast<uint32_t>(j0 + j),
+                  static_cast<uint32_t>(k0 + k), static_cast<uint32_t>(setups_.column[strut]), 0},
+                 doubtful, sure, x0, i0, i1, x1, doubts_);
   }
-}
-
-/// Columns [x0, i0) and (i1, x1] of the doubtful lanes.
-template <Radii radii>
-template <class D, class V>
-HWY_INLINE void FastSpans<radii>::add_doubts(D d, const LaneShape& shape, size_t strut, size_t j,
-                                             size_t k, hn::Mask<D> doubtful, V x0, V i0, V i1,
-                                             V x1) {
-  HWY_ALIGN float columns[4][2 * max_simd_doubles];
-  hn::Store(x0, d, columns[0]);
-  hn::Store(i0, d, columns[1]);
-  hn::Store(i1, d, columns[2]);
-  hn::Store(x1, d, columns[3]);
-  add_doubtful_lanes(columns, shape.wide,
-                     {static_cast<uint32_t>(strut), static_cast<uint32_t>(j),
-                      static_cast<uint32_t>(k), static_cast<uint32_t>(setups_.column[strut]), 0},
-                     bits_of(d, doubtful), doubts_);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -118,7 +118,7 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
   const SampleGrid& grid = *alive_.grid;
   Queried queried;
   uint32_t strut = UINT32_MAX;
-  Vec3 a, ab, slope, spread;
+  Vec3 a, ab, slope;
   double inverse_squared = 0;
   for (size_t n = 0; n < doubtful_.size(); ++n) {
     prefetch(n + doubts_ahead);
@@ -129,10 +129,7 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
       ab = struts.to(strut) - a;
       const double squared = dot(ab, ab);
       inverse_squared = squared > 0 ? 1 / squared : 0;
-      if (struts.linear) {
-        slope = struts.slope(strut);
-        spread = struts.spread_of(strut);
-      }
+      if (struts.linear) slope = struts.slope(strut);
     }
     uint64_t* const certain = certain_row(span.j, span.k);
     const uint64_t* const alive = alive_.row(alive_.y0 + span.j, alive_.z0 + span.k);
@@ -150,10 +147,7 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
         // Samples in the strut are in its reach, where these bounds hold. So are those within its
         // maximum radius. All outcomes are frequent: there is no branch.
         const double about = struts.at_a[strut] + dot(slope, from_a);
-        const Vec3 from_middle = from_a - ab * 0.5;
-        const double departure = struts.departure[strut] + spread.x * std::abs(from_middle.x) +
-                                 spread.y * std::abs(from_middle.y) +
-                                 spread.z * std::abs(from_middle.z);
+        const double departure = struts.departure_at(strut, from_a - ab * 0.5);
         const double thick = std::min(about + departure, struts.high[strut]) + margin;
         const double thin = std::min(about - departure, struts.high[strut]) - margin;
         const bool is_inside = (thin > 0) & (squared < thin * thin);

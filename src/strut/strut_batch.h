@@ -2,6 +2,7 @@
 // Struts as input of the raster: component by component, so that several are set up at once.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "base/simd.h"
@@ -29,7 +30,10 @@ struct StrutBatch {
   Vec3 from(size_t i) const { return {a[0][i], a[1][i], a[2][i]}; }
   Vec3 to(size_t i) const { return {b[0][i], b[1][i], b[2][i]}; }
   Vec3 slope(size_t i) const { return {gradient[0][i], gradient[1][i], gradient[2][i]}; }
-  Vec3 spread_of(size_t i) const { return {spread[0][i], spread[1][i], spread[2][i]}; }
+  double departure_at(size_t i, Vec3 from_middle) const {
+    return departure[i] + spread[0][i] * std::abs(from_middle.x) +
+           spread[1][i] * std::abs(from_middle.y) + spread[2][i] * std::abs(from_middle.z);
+  }
   void push(Vec3 from, Vec3 to) {
     for (int axis = 0; axis < 3; ++axis) {
       a[axis][count] = from[axis];

@@ -37,6 +37,7 @@ size_t differ(const StructureRow& row, const FrameCase& c, double per_cell, size
   const Ref<const Model> model = make_ref<Model>(shared_context(), make_ref<AllSpace>(),
                                                  std::vector<Ref<const Structure>>{structure});
   const Ref<const Model> framed = make_framed_model(*model, c.frame);
+  const Scale& scale = *framed->resolved(0)[0];
   auto side = static_cast<uint64_t>(std::max(3.0, std::cbrt(static_cast<double>(samples) / 4)));
   // Whole boxes of samples are within a part of either structure.
   if (row.is_made_of_others() && structure->knows_boxes()) side = std::max<uint64_t>(side, 24);
@@ -51,7 +52,7 @@ size_t differ(const StructureRow& row, const FrameCase& c, double per_cell, size
   for (uint64_t k = 0; k < grid.nz; ++k)
     for (uint64_t j = 0; j < grid.ny; ++j)
       for (uint64_t i = 0; i < grid.nx; ++i) rows.set(i, j, k);
-  framed->resolved(0)[0]->keep_rows(rows.block(), nullptr);
+  scale.keep_rows(rows.block(), nullptr);
   assert_int_equal(rows.damage(), 0);
   size_t wrong = 0;
   for (uint64_t k = 0; k < grid.nz; ++k)
@@ -59,7 +60,7 @@ size_t differ(const StructureRow& row, const FrameCase& c, double per_cell, size
       for (uint64_t i = 0; i < grid.nx; ++i) {
         const Vec3 p = c.frame.to_model(grid.at(i, j, k));
         const bool is_inside = structure->inside(p);
-        assert_int_equal(framed->resolved(0)[0]->structure->inside(grid.at(i, j, k)), is_inside);
+        assert_int_equal(scale.structure->inside(grid.at(i, j, k)), is_inside);
         if (rows.get(i, j, k) == is_inside || may_differ(row, centre, p)) continue;
         if (!wrong++)
           print_error("%s, (%.17g, %.17g, %.17g): alone %d, in rows %d\n", c.name, p.x, p.y, p.z,

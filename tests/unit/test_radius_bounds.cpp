@@ -95,14 +95,6 @@ void draw_struts(StrutBatch& batch, double length, Random& random) {
   }
 }
 
-/// By how much the radius may differ from the linear one at p.
-double departure_at(const StrutBatch& batch, size_t i, Vec3 p) {
-  const Vec3 from_middle = p - (batch.from(i) + batch.to(i)) * 0.5;
-  return batch.departure[i] + batch.spread[0][i] * std::abs(from_middle.x) +
-         batch.spread[1][i] * std::abs(from_middle.y) +
-         batch.spread[2][i] * std::abs(from_middle.z);
-}
-
 /// Bounds hold wherever a strut may be, and are tight where the field is smooth.
 void test_bounds(void**) {
   Random random(31);
@@ -135,7 +127,7 @@ void test_bounds(void**) {
                      most);
           if (!batch.linear) continue;
           const double about = batch.at_a[i] + dot(batch.slope(i), p - a);
-          const double bound = departure_at(batch, i, p);
+          const double bound = batch.departure_at(i, p - (a + ab * 0.5));
           if (!(std::abs(r - about) <= bound))
             fail_msg("%s: radius %.17g differs from %.17g by more than %.17g", row.name, r, about,
                      bound);

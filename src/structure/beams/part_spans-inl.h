@@ -224,29 +224,15 @@ class RowDrawing {
       const auto decided = hn::And(sure, hn::And(hn::Eq(x0, i0), hn::Eq(x1, i1)));
       const auto doubtful = hn::AndNot(decided, some);
       if (hn::AllFalse(d, doubtful)) continue;
-      const VF none = hn::Add(x1, hn::Set(d, 1.0f));
-      add_doubts(shape, j0 + j, k0 + k, setups.column.of[i], number, bits_of(d, doubtful), x0,
-                 hn::IfThenElse(sure, i0, none), hn::IfThenElse(sure, i1, x1), x1);
+      add_doubts(d, shape,
+                 {number, static_cast<uint32_t>(j0 + j), static_cast<uint32_t>(k0 + k),
+                  static_cast<uint32_t>(setups.column.of[i]), 0},
+                 doubtful, sure, x0, i0, i1, x1, doubts_);
     }
   }
   HWY_INLINE void finish() { buffer_.draw(); }
 
  private:
-  /// Columns [x0, i0) and (i1, x1] of the doubtful lanes.
-  HWY_INLINE void add_doubts(const LaneShape& shape, size_t j, size_t k, int32_t column,
-                             uint32_t number, uint64_t doubtful, VF x0, VF i0, VF i1, VF x1) {
-    const F d;
-    HWY_ALIGN float columns[4][2 * max_simd_doubles];
-    hn::Store(x0, d, columns[0]);
-    hn::Store(i0, d, columns[1]);
-    hn::Store(i1, d, columns[2]);
-    hn::Store(x1, d, columns[3]);
-    add_doubtful_lanes(columns, shape.wide,
-                       {number, static_cast<uint32_t>(j), static_cast<uint32_t>(k),
-                        static_cast<uint32_t>(column), 0},
-                       doubtful, doubts_);
-  }
-
   const RasterTarget& target_;
   DoubtfulSpans& doubts_;
   SpanBuffer buffer_;

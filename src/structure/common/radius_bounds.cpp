@@ -180,9 +180,9 @@ double RadiusBounds::doubts(const StrutBatch& batch, size_t strut) const {
         std::min(all.max[axis], samples_.max[axis]) - std::max(all.min[axis], samples_.min[axis]);
     if (within < size) part *= std::max(within, 0.0) / size;
   }
-  const Vec3 from_middle = magnitude(b - a) * 0.25 + Vec3{radius, radius, radius};
+  // Halfway from the middle to an end, and at the surface.
   const double departure =
-      batch.departure[strut] + (batch.linear ? dot(batch.spread_of(strut), from_middle) : 0);
+      batch.departure_at(strut, magnitude(b - a) * 0.25 + Vec3{radius, radius, radius});
   return 4 * pi * radius * (length(b - a) + 2 * radius) * departure * part;
 }
 
