@@ -2,7 +2,7 @@
 // Selects the vector instructions for Highway's runtime dispatch. A file with kernels includes
 // hwy/foreach_target.h and hwy/highway.h itself, since both are read once for each target.
 //
-// Functions that only prefetch are HWY_INLINE: GCC 12 may drop calls of them, as they have no result.
+// Functions that only prefetch are HWY_INLINE: GCC 12 may drop calls of them.
 #pragma once
 
 #include <hwy/aligned_allocator.h>
