@@ -205,7 +205,7 @@ void bench_work(bench::Report& report, const Work& work, uint32_t resolution) {
 
 /// 4 x 4 samples per pixel beside one, and beside bits of as many samples.
 void bench_grey(bench::Report& report, const Work& work, uint32_t resolution) {
-  const uint64_t count = 16, first = resolution / 4;
+  const uint64_t count = 64, first = resolution / 4;
   const auto seconds = [&](uint32_t pixels, int32_t output) {
     const Slices slices(work, pixels, 1, 1u << 30, 0, output);
     slices.run(first, count);

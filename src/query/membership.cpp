@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "base/memory.h"
 #include "shape/primitive.h"
 
@@ -131,9 +132,8 @@ void fill_shape(const Shape& shape, const RowBlock& block) {
 
 /// Tiles of the rows of a block, one after the other in the order of a slab's.
 template <class Visit>
-void for_each_tile(const Model& model, const Scales& scales, const RowBlock& block,
-                   const Executor& executor, const Job* job, Visit&& visit) {
-  const uint64_t rows = rows_of_tile(model, scales, *block.grid, block.layers());
+void for_each_tile(const RowBlock& block, uint64_t rows, const Executor& executor, const Job* job,
+                   Visit&& visit) {
   const uint64_t across = (block.rows() + rows - 1) / rows;
   const uint64_t deep = (block.layers() + tile_layers - 1) / tile_layers;
   executor.for_each(across * deep, [&](uint64_t n) {
@@ -143,7 +143,7 @@ void for_each_tile(const Model& model, const Scales& scales, const RowBlock& blo
     tile.y1 = std::min(block.y1, tile.y0 + rows);
     tile.z0 = block.z0 + n / across * tile_layers;
     tile.z1 = std::min(block.z1, tile.z0 + tile_layers);
-    tile.words = block.row(tile.y0, tile.z0);
+    if (block.words) tile.words = block.row(tile.y0, tile.z0);
     visit(tile);
   });
 }
@@ -185,7 +185,8 @@ void fill_regions(const Model& model, const Scales& resolved, const RowBlock& bl
         }
       }
     });
-    for_each_tile(model, scales, rows, executor, job, [&](const RowBlock& tile) {
+    const uint64_t at_once = rows_of_tile(model, scales, *rows.grid, rows.layers());
+    for_each_tile(rows, at_once, executor, job, [&](const RowBlock& tile) {
       if (!has_samples(tile)) return;
       if (counts && !scales.empty()) counts->by_shape -= samples_of(tile);
       for (const Scale* scale : scales) {
@@ -233,7 +234,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
     counts->points += points;
     counts->by_shape += resolved.empty() ? points : points - samples_of(block);
   };
-  const bool is_by_tile = !resolved.empty() && model.shape().fills_rows_apart();
+  const bool is_by_tile = fills_by_tile(model, resolved);
   if (!is_by_tile)
     for_each_layer([&](const RowBlock& block) {
       fill_from_shape(block);
@@ -243,7 +244,8 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
 
   // In the same order in each slab: what two slabs share is then found again after as many cells as
   // one slab is high, which the cache must hold at least (docs/benchmarks.md).
-  for_each_tile(model, resolved, slab, executor, job, [&](const RowBlock& block) {
+  const uint64_t rows = rows_of_tile(model, resolved, grid, slab.layers());
+  for_each_tile(slab, rows, executor, job, [&](const RowBlock& block) {
     if (is_by_tile) fill_from_shape(block);
     for (const Scale* scale : resolved) {
       if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
@@ -251,6 +253,45 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
     }
     if (finish) finish(block, 1);
   });
+}
+
+bool fills_by_tile(const Model& model, const Scales& resolved) {
+  return model.regions().empty() && !resolved.empty() && model.shape().fills_rows_apart();
+}
+
+namespace {
+
+/// Rows of a tile of fill_tiles().
+uint64_t rows_together_of_tile(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                               uint64_t layers, uint64_t rows_together) {
+  const uint64_t rows = rows_of_tile(model, resolved, grid, layers);
+  return rows - rows % rows_together;
+}
+
+}  // namespace
+
+void fill_tiles(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
+                uint64_t z1, uint64_t rows_together, const Job* job, const FinishRows& finish) {
+  static_assert(min_tile_rows % 16 == 0);
+  model.prepare_skins(resolved, job);
+  const RowBlock slab = slab_of(grid, z0, z1, nullptr);
+  const uint64_t rows = rows_together_of_tile(model, resolved, grid, slab.layers(), rows_together);
+  for_each_tile(slab, rows, model.executor(), job, [&](const RowBlock& tile) {
+    const Borrowed<std::vector<uint64_t>> words;
+    const size_t size = tile.row_words() * tile.rows() * tile.layers();
+    if (words->size() < size) words->resize(size);
+    const RowBlock block = copy_of(tile, words->data());
+    fill_shape(model.shape(), block);
+    for (const Scale* scale : resolved) scale->keep_rows(block, job);
+    finish(block, 1);
+  });
+}
+
+uint64_t fill_tiles_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                          uint64_t layers) {
+  const uint64_t rows = std::min(grid.ny, rows_of_tile(model, resolved, grid, layers));
+  return fill_slab_scratch_words(model, resolved, grid, layers) +
+         model.executor().threads() * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
 
 void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleGrid& grid,

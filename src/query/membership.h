@@ -31,6 +31,18 @@ void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleG
                        uint64_t z0, uint64_t z1, uint64_t y0, uint64_t y1, uint64_t* words,
                        const Job* job);
 
+/// Whether fill_tiles() serves a model.
+bool fills_by_tile(const Model& model, const Scales& resolved);
+
+/// As fill_slab() with `finish`, where nothing else needs the bits: each block has its rows in
+/// working memory, which caches hold. Blocks begin at multiples of `rows_together`, at most 16.
+void fill_tiles(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
+                uint64_t z1, uint64_t rows_together, const Job* job, const FinishRows& finish);
+
+/// Words of working memory that fill_tiles() takes.
+uint64_t fill_tiles_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                          uint64_t layers);
+
 /// Rows that fill_slab() takes at once.
 uint64_t rows_of_tile(const Model& model, const Scales& resolved, const SampleGrid& grid,
                       uint64_t layers);

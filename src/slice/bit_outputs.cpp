@@ -69,39 +69,37 @@ HWY_EXPORT(reverse_bits_of_bytes);
 
 namespace {
 
-uint64_t count_inside(const LayerSource& source) {
-  return HWY_DYNAMIC_DISPATCH(count_bits)(source.words,
-                                          words_for(source.pixels.nx) * source.pixels.ny);
-}
-
 void write_bits(const uint64_t* rows, size_t words, uint8_t* out) {
   HWY_DYNAMIC_DISPATCH(reverse_bits_of_bytes)(rows, words, out);
 }
 
-class BitOutput final : public LayerOutput {
+class BitOutput final : public RowOutput {
  public:
   unsigned pixel_bytes() const override { return 0; }
   unsigned samples_across() const override { return 1; }
-  uint64_t write(const LayerSource& source, uint8_t* out) const override {
-    write_bits(source.words, words_for(source.pixels.nx) * source.pixels.ny, out);
-    return count_inside(source);
+  uint64_t write_rows(const uint64_t* words, uint64_t width, uint64_t rows,
+                      uint8_t* out) const override {
+    const size_t count = words_for(width) * rows;
+    write_bits(words, count, out);
+    return HWY_DYNAMIC_DISPATCH(count_bits)(words, count);
   }
 };
 
-class ByteOutput final : public LayerOutput {
+class ByteOutput final : public RowOutput {
  public:
   unsigned pixel_bytes() const override { return 1; }
   unsigned samples_across() const override { return 1; }
-  uint64_t write(const LayerSource& source, uint8_t* out) const override {
-    const size_t row_words = words_for(source.pixels.nx);
-    const uint64_t stride = layer_stride(1, source.pixels.nx);
-    for (uint64_t j = 0; j < source.pixels.ny; ++j) {
-      const uint64_t* row = source.words + j * row_words;
+  uint64_t write_rows(const uint64_t* words, uint64_t width, uint64_t rows,
+                      uint8_t* out) const override {
+    const size_t row_words = words_for(width);
+    const uint64_t stride = layer_stride(1, width);
+    for (uint64_t j = 0; j < rows; ++j) {
+      const uint64_t* row = words + j * row_words;
       uint8_t* bytes = out + j * stride;
       for (uint64_t i = 0; i < stride; ++i)  // bits past the width are 0
         bytes[i] = (row[i / bits_per_word] >> (i % bits_per_word) & 1) ? 255 : 0;
     }
-    return count_inside(source);
+    return HWY_DYNAMIC_DISPATCH(count_bits)(words, row_words * rows);
   }
 };
 
@@ -109,11 +107,6 @@ class ByteOutput final : public LayerOutput {
 
 std::unique_ptr<const LayerOutput> make_bit_output() {
   return std::make_unique<BitOutput>();
-}
-
-uint64_t finish_bit_rows(uint64_t* rows, size_t words) {
-  write_bits(rows, words, reinterpret_cast<uint8_t*>(rows));
-  return HWY_DYNAMIC_DISPATCH(count_bits)(rows, words);
 }
 
 void read_bit_output(const uint8_t* written, size_t words, uint64_t* rows) {

@@ -174,7 +174,7 @@ namespace {
 
 constexpr uint64_t strip_rows = 64;
 
-class GreyOutput final : public LayerOutput {
+class GreyOutput final : public RowOutput {
  public:
   explicit GreyOutput(const GreyScale& grey) : samples_(grey.samples) {
     const unsigned all = samples_ * samples_;
@@ -189,6 +189,14 @@ class GreyOutput final : public LayerOutput {
   unsigned samples_across() const override { return samples_; }
 
   bool takes_repeats() const override { return true; }
+
+  uint64_t write_rows(const uint64_t* words, uint64_t width, uint64_t rows,
+                      uint8_t* out) const override {
+    uint64_t inside = 0;
+    for (uint64_t j = 0; j < rows; ++j)
+      inside += write_row(words + j * samples_ * row_words(width), width, j, out);
+    return inside;
+  }
 
   uint64_t write(const LayerSource& source, uint8_t* out) const override {
     const uint64_t height = source.pixels.ny;
@@ -219,31 +227,38 @@ class GreyOutput final : public LayerOutput {
     std::vector<uint64_t> inside(strips);
     source.model.context().executor.for_each(strips, [&](uint64_t strip) {
       const uint64_t first = begin + strip * strip_rows, last = std::min(end, first + strip_rows);
-      inside[strip] = write_rows(source, first, last, out);
+      inside[strip] = write_source(source, first, last, out);
     });
     uint64_t sum = 0;
     for (const uint64_t count : inside) sum += count;
     return sum;
   }
 
-  uint64_t write_rows(const LayerSource& source, uint64_t first, uint64_t last,
-                      uint8_t* out) const {
-    const uint64_t width = source.pixels.nx, stride = layer_stride(1, width);
-    const size_t row_words = words_for(width * samples_), row_bytes = row_words * sizeof(uint64_t);
-    std::vector<uint64_t> gathered(source.repeats ? samples_ * row_words : 0);
+  uint64_t write_source(const LayerSource& source, uint64_t first, uint64_t last,
+                        uint8_t* out) const {
+    const uint64_t width = source.pixels.nx;
+    const size_t across = row_words(width);
+    if (!source.repeats)
+      return write_rows(source.words + first * samples_ * across, width, last - first,
+                        out + first * layer_stride(1, width));
+    std::vector<uint64_t> gathered(samples_ * across);
     uint64_t inside = 0;
     for (uint64_t j = first; j < last; ++j) {
-      const uint64_t* rows = source.words + j * samples_ * row_words;
-      if (source.repeats) {
-        gather(source, j * samples_, row_words, gathered.data());
-        rows = gathered.data();
-      }
-      inside +=
-          HWY_DYNAMIC_DISPATCH(write_grey_row)(samples_, reinterpret_cast<const uint8_t*>(rows),
-                                               row_bytes, greys_.data(), out + j * stride, stride);
+      gather(source, j * samples_, across, gathered.data());
+      inside += write_row(gathered.data(), width, j, out);
     }
     return inside;
   }
+
+  /// Row j of an output, from its rows of samples.
+  uint64_t write_row(const uint64_t* samples, uint64_t width, uint64_t j, uint8_t* out) const {
+    const uint64_t stride = layer_stride(1, width);
+    return HWY_DYNAMIC_DISPATCH(write_grey_row)(samples_, reinterpret_cast<const uint8_t*>(samples),
+                                                row_words(width) * sizeof(uint64_t), greys_.data(),
+                                                out + j * stride, stride);
+  }
+
+  size_t row_words(uint64_t width) const { return words_for(width * samples_); }
 
   /// The rows of samples of a row of pixels, from `first` on, some of which repeat others.
   void gather(const LayerSource& source, uint64_t first, size_t row_words, uint64_t* rows) const {

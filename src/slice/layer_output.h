@@ -76,6 +76,21 @@ class LayerOutput {
   virtual bool takes_repeats() const { return false; }
 };
 
+/// An output whose rows are made of their samples alone, so that a slab can be written while it is
+/// filled.
+class RowOutput : public LayerOutput {
+ public:
+  /// Writes rows of `width` pixels, of layer_stride() bytes, from the bits of samples_across() rows
+  /// each, in words_for() words. `out` may be the words themselves if there is one sample per
+  /// pixel, and one bit. Returns the number inside.
+  virtual uint64_t write_rows(const uint64_t* words, uint64_t width, uint64_t rows,
+                              uint8_t* out) const = 0;
+
+  uint64_t write(const LayerSource& source, uint8_t* out) const override {
+    return write_rows(source.words, source.pixels.nx, source.pixels.ny, out);
+  }
+};
+
 /// Bytes from one row to the next, a multiple of 8.
 inline uint64_t layer_stride(unsigned pixel_bytes, uint64_t width) {
   return pixel_bytes ? (width * pixel_bytes + 7) / 8 * 8 : words_for(width) * 8;
@@ -90,8 +105,6 @@ SampleGrid divided(const SampleGrid& pixels, unsigned across);
 std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, const Model& model,
                                                      const Scales& resolved);
 
-/// Writes what the bit output writes in the place of rows of bits. Returns the number inside.
-uint64_t finish_bit_rows(uint64_t* rows, size_t words);
 /// The rows of bits, sample 0 in the lowest bit, that the bit output has written.
 void read_bit_output(const uint8_t* written, size_t words, uint64_t* rows);
 

@@ -15,6 +15,11 @@ uint64_t rows_of_pixel(const SampleGrid& grid, const SlabsAhead::Bands& bands) {
   return grid.ny / bands.rows;
 }
 
+/// Whether rows become pixels of another size, so that a slab has no room for their samples.
+bool keeps_no_samples(const RowOutput* output) {
+  return output && output->pixel_bytes() > 0;
+}
+
 /// A single thread fills one slab, whose memory its caches then hold, when it is needed.
 bool fills_ahead(const Model& model) {
   return model.executor().threads() > 1;
@@ -41,7 +46,11 @@ SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
   if (grids_.empty()) return;
   const bool is_one_slab = depth.others == last - first && bands.count() == 1;
   for (const SampleGrid& grid : grids_) {
-    const uint64_t words = words_for(grid.nx) * rows_of_pixel(grid, bands) * bands.band_rows;
+    const uint64_t across = rows_of_pixel(grid, bands);
+    const RowOutput* const output = uses_[layer_words_.size()].output;
+    const uint64_t words =
+        bytes_of_rows(rows_of(grid, 0, across * bands.band_rows), across, output) /
+        sizeof(uint64_t);
     layer_words_.push_back(words);
     const auto layers = [words](uint64_t count) {
       return GridSlab{std::make_unique_for_overwrite<uint64_t[]>(count * words),
@@ -56,61 +65,79 @@ SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
   start_next();
 }
 
+uint64_t SlabsAhead::bytes_of_rows(const SampleGrid& rows, uint64_t across,
+                                   const RowOutput* output) {
+  return output ? layer_stride(output->pixel_bytes(), rows.nx / across) * (rows.ny / across)
+                : words_for(rows.nx) * rows.ny * sizeof(uint64_t);
+}
+
 SlabsAhead::~SlabsAhead() {
   ahead_job_.cancel();
 }
 
 uint64_t SlabsAhead::bytes(const Model& model, const Scales& resolved,
-                           const std::vector<SampleGrid>& grids,
-                           const std::vector<RowRepeats>& repeats, Depth depth, Bands bands,
-                           uint64_t layers) {
+                           const std::vector<SampleGrid>& grids, const std::vector<GridUse>& uses,
+                           Depth depth, Bands bands, uint64_t layers) {
   const bool is_one_slab = depth.others == layers && bands.count() == 1;
   const uint64_t held = (is_one_slab || !fills_ahead(model) ? 1 : 2) * depth.others;
   uint64_t bytes = 0, scratch = 0;
   for (size_t g = 0; g < grids.size(); ++g) {
-    const SampleGrid& grid = grids[g];
-    const SampleGrid band = rows_of(grid, 0, rows_of_pixel(grid, bands) * bands.band_rows);
-    const uint64_t layer_bytes = words_for(band.nx) * band.ny * sizeof(uint64_t);
-    bytes += held * (layer_bytes + (repeats[g].any() ? RowFlips::max_bytes(layer_bytes) : 0));
+    const uint64_t across = rows_of_pixel(grids[g], bands);
+    const SampleGrid band = rows_of(grids[g], 0, across * bands.band_rows);
+    const uint64_t layer_bytes = bytes_of_rows(band, across, uses[g].output);
+    bytes += held * (layer_bytes + (uses[g].repeats.any() ? RowFlips::max_bytes(layer_bytes) : 0));
     for (const uint64_t filled : {depth.first, depth.others})
-      scratch = std::max(scratch, fill_slab_scratch_words(model, resolved, band, filled));
+      scratch = std::max(scratch, keeps_no_samples(uses[g].output)
+                                      ? fill_tiles_words(model, resolved, band, filled)
+                                      : fill_slab_scratch_words(model, resolved, band, filled));
   }
   return bytes + scratch * sizeof(uint64_t);
 }
 
 void SlabsAhead::fill(const Piece& piece, Slab& slab, const Job* job) const {
-  for (size_t g = 0; g < grids_.size(); ++g) {
-    const uint64_t across = rows_of_pixel(grids_[g], bands_);
-    const SampleGrid rows =
-        rows_of(grids_[g], across * bands_.begin(piece.band), across * bands_.end(piece.band));
-    FinishRows finish;
-    if (uses_[g].is_as_bit_output) {
-      std::atomic<uint64_t>* const inside = slab[g].inside.get();
-      std::fill_n(inside, piece.end - piece.begin, uint64_t{0});
-      finish = [inside, begin = piece.begin](const RowBlock& block, uint64_t times) {
-        for (uint64_t k = block.z0; k < block.z1; ++k)
-          inside[k - begin].fetch_add(
-              times * finish_bit_rows(block.row(block.y0, k), block.rows() * block.row_stride),
-              std::memory_order_relaxed);
-      };
-    }
-    const RowRepeats repeats = uses_[g].repeats.of_rows(
-        rows.first[1] - grids_[g].first[1], rows.first[1] - grids_[g].first[1] + rows.ny);
-    slab[g].repeats = {};
-    if (repeats.any()) {
-      const bool takes_repeats = uses_[g].takes_repeats;
-      if (takes_repeats) {
-        slab[g].repeats = repeats;
-        slab[g].flips.resize(std::max<uint64_t>(slab[g].flips.size(), piece.end - piece.begin));
+  for (size_t g = 0; g < grids_.size(); ++g) fill_grid(g, piece, slab[g], job);
+}
+
+void SlabsAhead::fill_grid(size_t g, const Piece& piece, GridSlab& slab, const Job* job) const {
+  const GridUse& use = uses_[g];
+  const uint64_t across = rows_of_pixel(grids_[g], bands_);
+  const SampleGrid rows =
+      rows_of(grids_[g], across * bands_.begin(piece.band), across * bands_.end(piece.band));
+  FinishRows finish;
+  if (use.output) {
+    const uint64_t width = rows.nx / across;
+    std::fill_n(slab.inside.get(), piece.end - piece.begin, uint64_t{0});
+    finish = [&slab, &use, &piece, across, width, layer_words = layer_words_[g],
+              stride = layer_stride(use.output->pixel_bytes(), width)](const RowBlock& block,
+                                                                       uint64_t times) {
+      for (uint64_t k = block.z0; k < block.z1; ++k) {
+        uint64_t* const layer = slab.words.get() + (k - piece.begin) * layer_words;
+        uint8_t* const out = reinterpret_cast<uint8_t*>(layer) + block.y0 / across * stride;
+        slab.inside[k - piece.begin].fetch_add(
+            times *
+                use.output->write_rows(block.row(block.y0, k), width, block.rows() / across, out),
+            std::memory_order_relaxed);
       }
-      fill_repeating_slab(model_, resolved_, rows, repeats, piece.begin, piece.end,
-                          slab[g].words.get(), job, finish,
-                          takes_repeats ? &slab[g].flips : nullptr);
-      continue;
-    }
-    fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab[g].words.get(), job, nullptr,
-              finish);
+    };
   }
+  slab.repeats = {};
+  if (keeps_no_samples(use.output)) {
+    fill_tiles(model_, resolved_, rows, piece.begin, piece.end, across, job, finish);
+    return;
+  }
+  const RowRepeats repeats = use.repeats.of_rows(rows.first[1] - grids_[g].first[1],
+                                                 rows.first[1] - grids_[g].first[1] + rows.ny);
+  if (!repeats.any()) {
+    fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab.words.get(), job, nullptr,
+              finish);
+    return;
+  }
+  if (use.takes_repeats) {
+    slab.repeats = repeats;
+    slab.flips.resize(std::max<uint64_t>(slab.flips.size(), piece.end - piece.begin));
+  }
+  fill_repeating_slab(model_, resolved_, rows, repeats, piece.begin, piece.end, slab.words.get(),
+                      job, finish, use.takes_repeats ? &slab.flips : nullptr);
 }
 
 SlabsAhead::Piece SlabsAhead::after(const Piece& piece) const {

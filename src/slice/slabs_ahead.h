@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bits of layers, slab by slab in ascending order. While the caller uses the layers of a slab,
-// workers fill the next one; a single thread fills each when it is needed. Where a slab of one
-// layer is still too large, bands of its rows follow each other in the same way. Source: paper,
-// section "Slicing".
+// Bits of layers, or rows of pixels made of them, slab by slab in ascending order. While the caller
+// uses the layers of a slab, workers fill the next one; a single thread fills each when it is
+// needed. Where a slab of one layer is still too large, bands of its rows follow each other in the
+// same way. Source: paper, section "Slicing".
 #pragma once
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "base/sample_grid.h"
 #include "model/model.h"
 #include "query/repeating_rows.h"
+#include "slice/layer_output.h"
 
 namespace msq {
 
@@ -36,19 +37,23 @@ class SlabsAhead {
     uint64_t end(uint64_t band) const { return std::min(rows, (band + 1) * band_rows); }
   };
 
+  /// What becomes of the rows of a grid.
+  struct GridUse {
+    RowRepeats repeats;          ///< of all its rows
+    bool takes_repeats = false;  ///< rows that repeat others need not be there
+    /// Null, or what its rows become when they are filled, in place of samples.
+    const RowOutput* output = nullptr;
+  };
+
+  /// Bytes of rows of samples, or of the rows of `output` that they become. `across`: samples of a
+  /// pixel.
+  static uint64_t bytes_of_rows(const SampleGrid& rows, uint64_t across, const RowOutput* output);
+
   /// Memory for a run of so many layers: two slabs or bands, of a single thread one, and what
   /// filling them takes. The caller reserves it.
   static uint64_t bytes(const Model& model, const Scales& resolved,
-                        const std::vector<SampleGrid>& grids,
-                        const std::vector<RowRepeats>& repeats, Depth depth, Bands bands,
-                        uint64_t layers);
-
-  /// What becomes of the rows of a grid.
-  struct GridUse {
-    RowRepeats repeats;             ///< of all its rows
-    bool is_as_bit_output = false;  ///< they become what the bit output writes when they are filled
-    bool takes_repeats = false;     ///< rows that repeat others need not be there
-  };
+                        const std::vector<SampleGrid>& grids, const std::vector<GridUse>& uses,
+                        Depth depth, Bands bands, uint64_t layers);
 
   /// Of layers [first, last) of grids with the same layers, of which there may be none. No slab has
   /// more layers than there are. Fills the first slab or band.
@@ -60,7 +65,8 @@ class SlabsAhead {
 
   /// Makes a band of a layer current: the first one, then each next one.
   void go_to(uint64_t layer, uint64_t band);
-  /// Rows of the current band of a grid, in words_for(nx) words each. Valid until go_to().
+  /// Rows of the current band of a grid: samples in words_for(nx) words each, or the bytes of its
+  /// output. Valid until go_to().
   const uint64_t* words(size_t grid) const {
     return current_[grid].words.get() + (layer_ - piece_.begin) * layer_words_[grid];
   }
@@ -70,14 +76,15 @@ class SlabsAhead {
     return repeats.any() && flips(grid).is_full() ? RowRepeats{} : repeats;
   }
   const RowFlips& flips(size_t grid) const { return current_[grid].flips[layer_ - piece_.begin]; }
-  /// Samples inside of the current band of a grid of `is_as_bit_output`.
+  /// Samples inside of the current band of a grid that has an output.
   uint64_t inside_count(size_t grid) const {
     return current_[grid].inside[layer_ - piece_.begin].load(std::memory_order_relaxed);
   }
 
  private:
   struct GridSlab {
-    /// Pages are touched as layers are filled: a shallow first slab needs few.
+    /// Of samples or pixels. Pages are touched as layers are filled: a shallow first slab needs
+    /// few.
     std::unique_ptr<uint64_t[]> words;
     std::unique_ptr<std::atomic<uint64_t>[]> inside;  ///< of each layer
     RowRepeats repeats;                               ///< rows that are not there
@@ -90,6 +97,7 @@ class SlabsAhead {
   };
 
   void fill(const Piece& piece, Slab& slab, const Job* job) const;
+  void fill_grid(size_t g, const Piece& piece, GridSlab& slab, const Job* job) const;
   Piece after(const Piece& piece) const;
   void start_next();
 

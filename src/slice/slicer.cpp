@@ -109,9 +109,10 @@ Slicer::Slicer(Ref<const Model> model, SlicePlan plan)
                 "the region");
   plan_slabs();
   const size_t samples = outputs_.front().samples;
-  if (samples != no_samples && slab_layers_ > 1 && LayersAhead::pays(framed_resolved_))
-    ahead_ =
-        std::make_unique<LayersAhead>(*framed_, framed_resolved_, samples_[samples], slab_layers_);
+  if (samples == no_samples || !LayersAhead::pays(framed_resolved_)) return;
+  const uint64_t ahead = plan_.slab_layers ? slab_layers_ : automatic_layers(false);
+  if (ahead > 1)
+    ahead_ = std::make_unique<LayersAhead>(*framed_, framed_resolved_, samples_[samples], ahead);
 }
 
 const char* Slicer::axis_name(int axis) const {
@@ -215,10 +216,11 @@ SampleGrid Slicer::divided_pixels(unsigned across) const {
 
 void Slicer::plan_slabs() {
   if (samples_.empty()) return;  // layer by layer
-  if (plan_.slab_layers) {
-    slab_layers_ = std::min<uint64_t>(plan_.slab_layers, grid_.nz);
-    return;
-  }
+  slab_layers_ =
+      plan_.slab_layers ? std::min<uint64_t>(plan_.slab_layers, grid_.nz) : automatic_layers(true);
+}
+
+uint64_t Slicer::automatic_layers(bool in_run) const {
   const double extent = grid_.z(grid_.nz - 1) - grid_.z(0);
   const double height = grid_.nz > 1 ? extent / static_cast<double>(grid_.nz - 1) : 0;
   double layers = automatic_slab_layers;
@@ -229,15 +231,16 @@ void Slicer::plan_slabs() {
     layers = std::floor(std::max(1.0, std::floor(automatic_slab_layers / cell * up)) * cell * up);
   }
   uint64_t layer_bytes = 0;
-  for (const SampleGrid& samples : samples_)
-    layer_bytes += words_for(samples.nx) * samples.ny * sizeof(uint64_t);
+  for (size_t i = 0; i < samples_.size(); ++i)
+    layer_bytes += SlabsAhead::bytes_of_rows(samples_[i], samples_[i].ny / grid_.ny,
+                                             in_run ? row_output(i) : nullptr);
   uint64_t max_bytes =
       std::min(automatic_slab_bytes, shallow_slab_bytes * model_->executor().threads());
   for (const Scale* scale : framed_resolved_)
     if (gains_by_layers(*scale)) max_bytes = automatic_slab_bytes;
   max_bytes = std::min(max_bytes, slab_share(model_->context().budget->limit()));
   const uint64_t fit = max_bytes / layer_bytes;
-  slab_layers_ = static_cast<uint64_t>(
+  return static_cast<uint64_t>(
       std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
 }
 
@@ -279,8 +282,8 @@ Slicer::Portions Slicer::portions(uint64_t layers, uint64_t beside) const {
     uint64_t plain = 0;
     for (const Output& output : outputs_) plain = std::max(plain, plain_bytes(output, rows));
     return beside + plain +
-           SlabsAhead::bytes(*framed_, framed_resolved_, samples_, repeats_, made.depth,
-                             {grid_.ny, rows}, layers);
+           SlabsAhead::bytes(*framed_, framed_resolved_, samples_, uses_of_samples(rows),
+                             made.depth, {grid_.ny, rows}, layers);
   };
   const Context& context = model_->context();
   while (plan_.slab_layers == 0 && made.depth.others > 1 && bytes_of(grid_.ny) > room_in(context))
@@ -310,11 +313,10 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   }
   const Portions portion = portions(last - first, all_bytes);
   const SlabsAhead::Bands& bands = portion.bands;
-  std::vector<SlabsAhead::GridUse> uses;
-  for (size_t i = 0; i < samples_.size(); ++i)
-    uses.push_back({repeats_[i], false, takes_repeats(i)});
-  for (const Output& output : outputs_)
-    if (is_in_place(output, bands)) uses[output.samples].is_as_bit_output = true;
+  const std::vector<SlabsAhead::GridUse> uses = uses_of_samples(bands.band_rows);
+  const auto is_in_slab = [&](const Output& output) {
+    return output.samples != no_samples && uses[output.samples].output;
+  };
   const Reservation reservation(model_->context().budget, portion.bytes,
                                 samples_.empty()    ? "a layer"
                                 : bands.count() > 1 ? "a layer and bands of its rows"
@@ -322,10 +324,10 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   for (const Output& output : outputs_)
     max_plain_bytes = std::max(max_plain_bytes, plain_bytes(output, bands.band_rows));
   std::vector<uint8_t> plain(max_plain_bytes);
-  // Of each output that is not made in place; none for contours.
+  // Of each output that slabs do not hold; none for contours.
   std::vector<std::vector<uint8_t>> layers(outputs_.size());
   for (size_t i = 0; i < outputs_.size(); ++i)
-    if (!is_in_place(outputs_[i], bands)) layers[i].resize(layer_bytes(i));
+    if (!is_in_slab(outputs_[i])) layers[i].resize(layer_bytes(i));
   std::vector<LayerPart> parts(outputs_.size());
   SlabsAhead slabs(*framed_, framed_resolved_, samples_, uses, portion.depth, bands, first, last,
                    job);
@@ -341,7 +343,7 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
       SampleRows rows;
       RowRepeats repeats;
       if (output.samples != no_samples) rows.words = slabs.words(output.samples);
-      if (rows.words && uses[output.samples].is_as_bit_output) {
+      if (is_in_slab(output)) {
         parts[i].data = reinterpret_cast<const uint8_t*>(rows.words);
         parts[i].inside_count = slabs.inside_count(output.samples);
         continue;
@@ -374,11 +376,27 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   }
 }
 
-bool Slicer::is_in_place(const Output& output, const SlabsAhead::Bands& bands) const {
-  return output.plan.format == LayerFormat::bits && !plan_.keeps_words && bands.count() == 1 &&
-         plan_.orientation.is_plain() &&
-         std::count_if(outputs_.begin(), outputs_.end(),
-                       [&](const Output& other) { return other.samples == output.samples; }) == 1;
+const RowOutput* Slicer::row_output(size_t samples) const {
+  if (plan_.keeps_words || !plan_.orientation.is_plain()) return nullptr;
+  const Output* only = nullptr;
+  for (const Output& output : outputs_) {
+    if (output.samples != samples) continue;
+    if (only) return nullptr;
+    only = &output;
+  }
+  const auto* const rows = dynamic_cast<const RowOutput*>(only->pixels.get());
+  if (!rows || rows->pixel_bytes() == 0) return rows;
+  const bool is_by_tile =
+      fills_by_tile(*framed_, framed_resolved_) && !repeats_[samples].any() && !is_shallow();
+  return is_by_tile ? rows : nullptr;
+}
+
+std::vector<SlabsAhead::GridUse> Slicer::uses_of_samples(uint64_t band_rows) const {
+  std::vector<SlabsAhead::GridUse> uses;
+  for (size_t i = 0; i < samples_.size(); ++i)
+    uses.push_back(
+        {repeats_[i], takes_repeats(i), band_rows == grid_.ny ? row_output(i) : nullptr});
+  return uses;
 }
 
 uint64_t Slicer::plain_bytes(const Output& output, uint64_t rows) const {

@@ -105,6 +105,9 @@ class Slicer final : public RefCounted {
   void plan_layers();
   void plan_outputs();
   void plan_slabs();
+  /// Layers of a slab, if the plan does not say; in_run: of slabs that become what row_output()
+  /// says.
+  uint64_t automatic_layers(bool in_run) const;
   /// Whether slabs have no more layers than caches hold: the structures do not gain by more.
   bool is_shallow() const;
   /// Of slabs of at most so many layers.
@@ -122,8 +125,11 @@ class Slicer final : public RefCounted {
   uint64_t band_rows(uint64_t max_sample_bytes,
                      const std::function<uint64_t(uint64_t)>& bytes_of) const;
   SampleGrid divided_pixels(unsigned across) const;
-  /// Whether an output is made in the place of its samples: bits that nothing else is made of.
-  bool is_in_place(const Output& output, const SlabsAhead::Bands& bands) const;
+  /// What the rows of some samples become while they are filled in whole layers, if nothing else
+  /// needs them; otherwise null.
+  const RowOutput* row_output(size_t samples) const;
+  /// Of a run in bands of so many rows of pixels.
+  std::vector<SlabsAhead::GridUse> uses_of_samples(uint64_t band_rows) const;
   /// Whether all outputs of some samples serve without the rows that repeat others.
   bool takes_repeats(size_t samples) const;
   /// Bytes of rows of an output as it writes them, before they are turned; 0 where they are not.

@@ -70,7 +70,7 @@ static void check_bands(const msq_slicer_def* def, int is_run, double least_part
   uint64_t least = UINT64_MAX;
   assert_ok(slice(def, is_run, 0, &whole));
   assert_int_equal(whole.count, LAYERS);
-  for (uint64_t limit = whole.peak;; limit -= whole.peak / 16) {
+  for (uint64_t limit = whole.peak;; limit -= limit / 16) {
     const msq_status status = slice(def, is_run, limit, &banded);
     assert_in_range(banded.peak, 0, limit);
     if (status != MSQ_OK) {
