@@ -5,10 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
+#include "base/borrowed.h"
 #include "base/pi.h"
 #include "shape/half_angles.h"
+#include "shape/tree_triangle.h"
 
 namespace msq {
 
@@ -67,6 +70,7 @@ Caps::Caps(const TriangleSoup& soup, const Loops& loops, const Box3& bounds, dou
   sorted.reserve(count);
   for (const uint32_t i : order) sorted.push_back(soup_.triangles[i]);
   soup_.triangles = std::move(sorted);
+  find_neighbours();
   columns_ = TriangleBins(soup_, bounds, bins_for(count, 0.5, 4096), bins_for(count, 0.5, 4096),
                           current_job());
   sheets_ = TriangleBins(soup_, bounds, 1, bins_for(count, 1.0, 16384), current_job());
@@ -108,6 +112,21 @@ void Caps::build(std::vector<uint32_t>& order, Run run) {
     build(order, {middle, run.end});
   }
   nodes_[index].next = static_cast<uint32_t>(nodes_.size());
+}
+
+void Caps::find_neighbours() {
+  std::unordered_map<uint64_t, std::pair<uint32_t, uint32_t>> edges;  // triangle and edge
+  edges.reserve(2 * soup_.triangles.size());
+  neighbours_.assign(soup_.triangles.size(), {no_triangle, no_triangle, no_triangle});
+  for (uint32_t t = 0; t < soup_.triangles.size(); ++t)
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint64_t a = soup_.triangles[t][i], b = soup_.triangles[t][(i + 1) % 3];
+      const auto [at, is_first] = edges.try_emplace(std::min(a, b) << 32 | std::max(a, b), t, i);
+      if (is_first) continue;
+      const auto [other, edge] = at->second;
+      neighbours_[t][i] = other;
+      neighbours_[other][edge] = t;
+    }
 }
 
 Caps::Node Caps::node_of(const std::vector<uint32_t>& order, Run run) const {
@@ -241,7 +260,8 @@ void Caps::gather(Vec3 centre, double radius, Nearby& near) const {
   for_each_part(
       p, usual_opening, radius, radius,
       [&](const Node& node, Vec3 d, double r, double gap) {
-        if (r > 8 * (node.radius + radius))
+        // Where the ball is small, what it adds to the error is small beside the node's own.
+        if (4 * radius < node.radius || r > 8 * (node.radius + radius))
           near.far.add(node, d, r, gap, radius);
         else
           near.nodes.push_back(static_cast<uint32_t>(&node - nodes_.data()));
@@ -265,11 +285,15 @@ Caps::View Caps::view(Vec3 point, const Nearby& near) const {
           sum.error + near.far.error + rounding_};
 }
 
-/// The gradient of the solid angle: its bound, and the minimum distance to the caps that cause it.
+/// The gradient of the solid angle: its bound, and the minimum distance to what causes it.
 struct Caps::Slope {
   double slope = 0;
-  double nearest = std::numeric_limits<double>::infinity(), to_caps = nearest;
+  double nearest = std::numeric_limits<double>::infinity();
 
+  void add(double part, double distance) {
+    slope += part;
+    nearest = std::min(nearest, distance);
+  }
   // Within s of the point the gradient is at most slope / (1 - s / nearest)^3.
   double change(double s) const {
     const double part = 1 - s / nearest;
@@ -279,28 +303,78 @@ struct Caps::Slope {
   }
 };
 
-void Caps::bound(uint32_t triangle, Vec3 p, Slope& slope) const {
+/// Triangles near a point. Some together are bounded by their edges, others by their area.
+struct Caps::NearCaps {
+  struct Part {
+    uint32_t triangle;
+    double of_area, to_triangle;
+    double of_edge[3], to_edge[3];
+  };
+  std::vector<Part> parts;
+  std::vector<uint64_t> is_by_edges;  // a bit for each triangle; all 0 between calls
+
+  bool has(uint32_t triangle) const {
+    return triangle != no_triangle && (is_by_edges[triangle / 64] >> (triangle % 64) & 1);
+  }
+  void take(uint32_t triangle) { is_by_edges[triangle / 64] |= uint64_t{1} << (triangle % 64); }
+  void begin(size_t triangles) {
+    if (is_by_edges.size() < triangles / 64 + 1) is_by_edges.resize(triangles / 64 + 1);
+  }
+  void end() {
+    for (const Part& part : parts) is_by_edges[part.triangle / 64] = 0;
+    parts.clear();
+  }
+  size_t bytes() const {
+    return parts.capacity() * sizeof(Part) + is_by_edges.capacity() * sizeof(uint64_t);
+  }
+};
+
+bool Caps::look_near(uint32_t triangle, Vec3 p, double clear, NearCaps& near) const {
   const Vec3 corners[3] = {corner(triangle, 0) - p, corner(triangle, 1) - p,
                            corner(triangle, 2) - p};
   const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double twice_area = length(normal);
-  double to_edges = std::numeric_limits<double>::infinity(), of_edges = 0;
+  double to_edges = std::numeric_limits<double>::infinity();
   bool is_beside = !(twice_area > 0);
-  for (int i = 0; i < 3; ++i) {
+  NearCaps::Part part{};
+  part.triangle = triangle;
+  for (size_t i = 0; i < 3; ++i) {
     const Vec3 from = corners[i], along = corners[(i + 1) % 3] - from;
     const double edge = length(along);
     const double d = std::max(0.0, distance_to_segment(from, along) * (1 - 0x1p-40) - tolerance_);
+    if (neighbours_[triangle][i] == no_triangle && !(d > clear)) return false;
+    part.to_edge[i] = d;
+    part.of_edge[i] = std::min(edge / (d * d), 2 / d);
     to_edges = std::min(to_edges, d);
-    of_edges += std::min(edge / (d * d), 2 / d);
     is_beside = is_beside || dot(cross(from, along), normal) < 0;
   }
   const double above = is_beside ? to_edges : std::abs(dot(corners[0], normal)) / twice_area;
-  const double to_triangle = std::max(0.0, std::min(to_edges, above * (1 - 0x1p-40) - tolerance_));
-  slope.to_caps = std::min(slope.to_caps, to_triangle);
-  const double of_area = twice_area / (to_triangle * to_triangle * to_triangle);
-  const bool is_far = of_area < of_edges;
-  slope.slope += is_far ? of_area : of_edges;
-  slope.nearest = std::min(slope.nearest, is_far ? to_triangle : to_edges);
+  part.to_triangle = std::max(0.0, std::min(to_edges, above * (1 - 0x1p-40) - tolerance_));
+  part.of_area = twice_area / (part.to_triangle * part.to_triangle * part.to_triangle);
+  near.parts.push_back(part);
+  return true;
+}
+
+Caps::Slope Caps::slope_of(NearCaps& near) const {
+  // A triangle that joins those by edges takes away the edges that it shares with them.
+  for (int times = 0; times < 2; ++times)
+    for (const NearCaps::Part& part : near.parts) {
+      if (near.has(part.triangle)) continue;
+      double gain = part.of_area;
+      for (size_t i = 0; i < 3; ++i)
+        gain += near.has(neighbours_[part.triangle][i]) ? part.of_edge[i] : -part.of_edge[i];
+      if (gain >= 0) near.take(part.triangle);
+    }
+  Slope slope;
+  for (const NearCaps::Part& part : near.parts) {
+    if (!near.has(part.triangle)) {
+      slope.add(part.of_area, part.to_triangle);
+      continue;
+    }
+    for (size_t i = 0; i < 3; ++i)
+      if (!near.has(neighbours_[part.triangle][i])) slope.add(part.of_edge[i], part.to_edge[i]);
+  }
+  return slope;
 }
 
 Caps::Steadiness Caps::look_about(Vec3 p, double radius, double opening, int64_t* whole) const {
@@ -308,6 +382,9 @@ Caps::Steadiness Caps::look_about(Vec3 p, double radius, double opening, int64_t
   Sum sum;
   Slope slope;
   const double clear = radius + 64 * tolerance_;
+  if (whole && meets_ball(p, clear)) return Steadiness::unsteady;
+  const Borrowed<NearCaps> near;
+  near->begin(soup_.triangles.size());
   // A smaller ball helps as much, and costs less, where much of the error is due to its size.
   constexpr double max_of_ball = 0.05;
   Steadiness found = Steadiness::steady;
@@ -322,15 +399,15 @@ Caps::Steadiness Caps::look_about(Vec3 p, double radius, double opening, int64_t
         return found == Steadiness::steady;
       },
       [&](uint32_t triangle) {
-        bound(triangle, p, slope);
-        if (!((whole ? slope.to_caps : slope.nearest) > clear)) {
-          found = Steadiness::unsteady;
-          return false;
-        }
-        look_at(triangle, p, sum);
-        return true;
+        const bool is_clear = look_near(triangle, p, clear, *near);
+        if (is_clear) look_at(triangle, p, sum);
+        if (!is_clear) found = Steadiness::unsteady;
+        return is_clear;
       });
+  if (found == Steadiness::steady) slope = slope_of(*near);
+  near->end();
   if (found != Steadiness::steady) return found;
+  if (!(slope.nearest > clear)) return Steadiness::unsteady;
   View view{sum.turns() + far.turns, sum.error + far.error + rounding_};
   view.error += radius * length(far.gradient) + slope.change(radius) * (1 / (4 * pi));
   if (whole) *whole = view.whole();
@@ -338,6 +415,22 @@ Caps::Steadiness Caps::look_about(Vec3 p, double radius, double opening, int64_t
   view.error -= far.error - far.error_of_ball;
   const bool may_be = view.margin() > 0 && far.error_of_ball < max_of_ball;
   return may_be ? Steadiness::unknown : Steadiness::unsteady;
+}
+
+bool Caps::meets_ball(Vec3 p, double radius) const {
+  for (uint32_t i = 0; i < nodes_.size();) {
+    const Node& node = nodes_[i];
+    const Vec3 d = node.centre - p;
+    const double reach = node.radius + radius;
+    const bool is_near = dot(d, d) <= reach * reach;
+    if (is_near && node.is_leaf) {
+      const TreeTriangle triangle(corner(node.triangle, 0), corner(node.triangle, 1),
+                                  corner(node.triangle, 2));
+      if (triangle.distance_squared(p) <= radius * radius) return true;
+    }
+    i = is_near && !node.is_leaf ? i + 1 : node.next;
+  }
+  return false;
 }
 
 bool Caps::is_steady_in(Vec3 centre, double radius, int64_t* whole) const {
@@ -351,7 +444,8 @@ bool Caps::is_steady_in(Vec3 centre, double radius, int64_t* whole) const {
 
 uint64_t Caps::bytes() const {
   return soup_.vertices.capacity() * sizeof(Vec3) + soup_.triangles.capacity() * sizeof(Triangle) +
-         columns_.bytes() + sheets_.bytes() + nodes_.capacity() * sizeof(Node);
+         columns_.bytes() + sheets_.bytes() + nodes_.capacity() * sizeof(Node) +
+         neighbours_.capacity() * sizeof neighbours_[0];
 }
 
 }  // namespace msq

@@ -13,9 +13,12 @@
 // the caps be within rho of c. The first two terms of the Taylor series of the kernel (y - p) / |y
 // - p|^3 have an error of at most 3 M / (r - rho)^4, M the integral of |y - c|^2 over the caps: the
 // m-th derivatives of 1/r in any directions are at most m! / r^(m + 1). The gradient of the solid
-// angle of caps of area A is at most 2 A / (r - rho)^3.
+// angle of caps of area A is at most 2 A / (r - rho)^3. It is also the field of a current along
+// their edges (Biot and Savart), to which edges between two of the caps add nothing: at the
+// distance d, an edge of length l adds at most the smaller of l / d^2 and 2 / d.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -79,6 +82,7 @@ class Caps {
   struct Run {
     uint32_t begin, end;
   };
+  static constexpr uint32_t no_triangle = UINT32_MAX;
   /// Solid angle over 4 pi of far nodes, as a linear function in a ball, and its error there.
   struct FarView {
     double turns = 0, error = 0;
@@ -95,10 +99,16 @@ class Caps {
   }
   struct Sum;
   void look_at(uint32_t triangle, Vec3 p, Sum& sum) const;
+  void find_neighbours();
   struct Slope;
-  void bound(uint32_t triangle, Vec3 p, Slope& slope) const;
+  struct NearCaps;
+  /// Adds a triangle to those near p. False if an edge of the mesh is within `clear`.
+  bool look_near(uint32_t triangle, Vec3 p, double clear, NearCaps& near) const;
+  Slope slope_of(NearCaps& near) const;
   /// As is_steady_in(), scaled; `unknown` if smaller nodes might prove it.
   enum class Steadiness { steady, unsteady, unknown };
+  /// Whether a cap meets a ball, scaled. Costs little: no solid angle is summed.
+  bool meets_ball(Vec3 p, double radius) const;
   Steadiness look_about(Vec3 p, double radius, double opening, int64_t* whole) const;
   /// Calls far(node, vector to it, distance, lower bound on the distance from the ball about p to
   /// its caps) for nodes farther than opening times their radius plus `room`, and near(triangle)
@@ -113,6 +123,8 @@ class Caps {
   TriangleSoup soup_;
   TriangleBins columns_, sheets_;
   std::vector<Node> nodes_;  // parents before children
+  /// By triangle and edge, the triangle beyond it; no_triangle beyond edges of the mesh.
+  std::vector<std::array<uint32_t, 3>> neighbours_;
 };
 
 struct Caps::Nearby {

@@ -13,41 +13,90 @@ namespace msq {
 
 namespace {
 
-/// What the winding numbers of the row rule, through mesh and caps, exceed those of the samples of
-/// a layer by: one number over a rectangle where that is proven, else sample by sample.
-class WholeParts {
+/// Samples [first, end) of rows of a layer.
+struct Part {
+  uint64_t first, end, first_row, end_row;
+};
+
+/// A number for each square of `side` samples of a part.
+template <uint64_t side>
+class Squares {
  public:
-  /// Samples [first, end) of rows.
-  struct Part {
-    uint64_t first, end, first_row, end_row;
-  };
-  static constexpr int64_t not_proven = INT64_MIN;
-
-  WholeParts(const OpenMesh& mesh, const SampleGrid& grid, double z)
-      : mesh_(mesh), grid_(grid), z_(z) {}
-
-  /// Not empty.
-  void set(const Part& part) {
+  void reset(const Part& part) {
     part_ = part;
     across_ = squares(part.first, part.end);
-    wholes_.assign(across_ * squares(part.first_row, part.end_row), 0);
-    single_.clear();
-    divide(part);
+    numbers_.assign(across_ * squares(part.first_row, part.end_row), 0);
   }
-
-  /// That of a sample, and of those after it up to `end`.
+  /// Of all squares that begin in `p`, which begins at a square.
+  void fill(const Part& p, int64_t number) {
+    const uint64_t x0 = (p.first - part_.first) / side, x1 = x0 + squares(p.first, p.end);
+    const uint64_t y0 = (p.first_row - part_.first_row) / side;
+    const uint64_t y1 = y0 + squares(p.first_row, p.end_row);
+    for (uint64_t y = y0; y < y1; ++y)
+      std::fill(&numbers_[y * across_ + x0], &numbers_[y * across_] + x1, number);
+  }
+  /// That of a sample, and of those after it in the row up to `end`.
   int64_t run(uint64_t i, uint64_t j, uint64_t& end) const {
-    const int64_t* row = &wholes_[(j - part_.first_row) / side * across_];
+    const int64_t* row = &numbers_[(j - part_.first_row) / side * across_];
     const uint64_t square = (i - part_.first) / side;
-    if (row[square] < first_single) {
-      const uint64_t at = (j - part_.first_row) % side * side + (i - part_.first) % side;
-      end = i + 1;
-      return single_[static_cast<size_t>(row[square] - not_proven)][at];
-    }
     uint64_t next = square + 1;
     while (next < across_ && row[next] == row[square]) ++next;
     end = std::min(part_.end, part_.first + next * side);
     return row[square];
+  }
+  /// Where a sample lies in its square, which is filled row by row.
+  uint64_t place(uint64_t i, uint64_t j) const {
+    return (j - part_.first_row) % side * side + (i - part_.first) % side;
+  }
+
+ private:
+  static uint64_t squares(uint64_t from, uint64_t to) { return (to - from + side - 1) / side; }
+
+  Part part_{};
+  uint64_t across_ = 0;
+  std::vector<int64_t> numbers_;
+};
+
+/// What the winding numbers of the row rule, through mesh and caps, exceed those of the samples of
+/// a layer by: one number over a rectangle where that is proven, else sample by sample.
+class WholeParts {
+ public:
+  static constexpr int64_t not_proven = INT64_MIN;
+  /// Rows that are known at once, which bounds what is kept of the parts.
+  static constexpr uint64_t band = 64;
+
+  /// `all`: not empty. Far from caps large squares are proven at once.
+  WholeParts(const OpenMesh& mesh, const SampleGrid& grid, double z, const Part& all)
+      : mesh_(mesh), grid_(grid), z_(z), all_(all) {
+    coarse_.reset(all);
+    divide<band>(
+        all, [&](const Part& p, int64_t whole) { coarse_.fill(p, whole); },
+        [&](const Part& p, Vec3, double) { coarse_.fill(p, not_proven); });
+  }
+
+  /// Goes to the band that begins at a row.
+  void set(uint64_t first_row) {
+    const Part part{all_.first, all_.end, first_row, std::min(all_.end_row, first_row + band)};
+    fine_.reset(part);
+    single_.clear();
+    for (uint64_t i = part.first, next; i < part.end; i = next) {
+      const int64_t whole = coarse_.run(i, first_row, next);
+      const Part run{i, next, part.first_row, part.end_row};
+      if (whole != not_proven)
+        fine_.fill(run, whole);
+      else
+        divide<side>(
+            run, [&](const Part& p, int64_t found) { fine_.fill(p, found); },
+            [&](const Part& p, Vec3 centre, double radius) { look_into(p, centre, radius); });
+    }
+  }
+
+  /// That of a sample, and of those after it up to `end`.
+  int64_t run(uint64_t i, uint64_t j, uint64_t& end) const {
+    const int64_t whole = fine_.run(i, j, end);
+    if (whole >= first_single) return whole;
+    end = i + 1;
+    return single_[static_cast<size_t>(whole - not_proven)][fine_.place(i, j)];
   }
 
  private:
@@ -55,39 +104,32 @@ class WholeParts {
   using Square = std::array<int64_t, side * side>;
   static constexpr int64_t first_single = INT64_MIN / 2;
 
-  static uint64_t squares(uint64_t from, uint64_t to) { return (to - from + side - 1) / side; }
-
-  void divide(const Part& p) {
+  /// Calls whole(part, number) for parts over which there is one number, and rest(part, centre,
+  /// radius) with a ball about the others, squares of `least` samples.
+  template <uint64_t least, class Whole, class Rest>
+  void divide(const Part& p, const Whole& whole, const Rest& rest) {
     const Vec3 low{grid_.x(p.first), grid_.y(p.first_row), z_};
     const Vec3 high{grid_.x(p.end - 1), grid_.y(p.end_row - 1), z_};
     const Vec3 extent = high - low, centre = (low + high) * 0.5;
     const double radius =
         (0.5 + 0x1p-20) * length(extent) + 0x1p-48 * (max_magnitude(low) + max_magnitude(high));
-    int64_t whole;
-    if (mesh_.is_whole_about(centre, radius, whole)) return fill(p, whole);
-    const bool splits_x = p.end - p.first > side, splits_y = p.end_row - p.first_row > side;
+    int64_t number;
+    if (mesh_.is_whole_about(centre, radius, number)) return whole(p, number);
+    const bool splits_x = p.end - p.first > least, splits_y = p.end_row - p.first_row > least;
     const auto middle = [](uint64_t from, uint64_t to) {
-      return from + (to - from + 2 * side - 1) / (2 * side) * side;
+      return from + (to - from + 2 * least - 1) / (2 * least) * least;
     };
     if (splits_x && (!splits_y || extent.x >= extent.y)) {
       const uint64_t at = middle(p.first, p.end);
-      divide({p.first, at, p.first_row, p.end_row});
-      divide({at, p.end, p.first_row, p.end_row});
+      divide<least>({p.first, at, p.first_row, p.end_row}, whole, rest);
+      divide<least>({at, p.end, p.first_row, p.end_row}, whole, rest);
     } else if (splits_y) {
       const uint64_t at = middle(p.first_row, p.end_row);
-      divide({p.first, p.end, p.first_row, at});
-      divide({p.first, p.end, at, p.end_row});
+      divide<least>({p.first, p.end, p.first_row, at}, whole, rest);
+      divide<least>({p.first, p.end, at, p.end_row}, whole, rest);
     } else {
-      look_into(p, centre, radius);
+      rest(p, centre, radius);
     }
-  }
-
-  void fill(const Part& p, int64_t whole) {
-    const uint64_t x0 = (p.first - part_.first) / side, x1 = x0 + squares(p.first, p.end);
-    const uint64_t y0 = (p.first_row - part_.first_row) / side;
-    const uint64_t y1 = y0 + squares(p.first_row, p.end_row);
-    for (uint64_t y = y0; y < y1; ++y)
-      std::fill(&wholes_[y * across_ + x0], &wholes_[y * across_] + x1, whole);
   }
 
   void look_into(const Part& p, Vec3 centre, double radius) {
@@ -99,16 +141,16 @@ class WholeParts {
         const Caps::View view = mesh_.caps().view({grid_.x(i), grid_.y(j), z_}, near_);
         if (view.margin() > 0) square[(j - p.first_row) * side + i - p.first] = view.whole();
       }
-    fill(p, not_proven + static_cast<int64_t>(single_.size()));
+    fine_.fill(p, not_proven + static_cast<int64_t>(single_.size()));
     single_.push_back(square);
   }
 
   const OpenMesh& mesh_;
   const SampleGrid& grid_;
   const double z_;
-  Part part_{};
-  uint64_t across_ = 0;
-  std::vector<int64_t> wholes_;  // of squares; below first_single, where its samples are in single_
+  const Part all_;
+  Squares<band> coarse_;
+  Squares<side> fine_;  // of the current band; below first_single, its samples are in single_
   std::vector<Square> single_;
   Caps::Nearby near_;
 };
@@ -134,11 +176,9 @@ void Mesh::fill_open_rows(const RowBlock& block) const {
     add_crossings(soup_, sheets_.at(box.min.y, z), block, k, crossings);
     add_crossings(open_->caps().soup(), open_->caps().at_height(z), block, k, crossings);
     sort_by_row(crossings, block.rows(), row_ends, sorted);
-    WholeParts parts(*open_, grid, z);
-    // In bands, which bound what is kept of the parts.
-    constexpr uint64_t band = 64;
+    WholeParts parts(*open_, grid, z, {first, end, first_row, end_row});
     for (uint64_t j = first_row; j < end_row; ++j) {
-      if ((j - first_row) % band == 0) parts.set({first, end, j, std::min(end_row, j + band)});
+      if ((j - first_row) % WholeParts::band == 0) parts.set(j);
       const uint64_t r = j - block.y0;
       RowCrossing* const row_begin = sorted.data() + (r ? row_ends[r - 1] : 0);
       RowCrossing* const row_end = sorted.data() + row_ends[r];
