@@ -118,15 +118,17 @@ bool has_samples(const RowBlock& block) {
   return false;
 }
 
-/// The samples of a shape, layer by layer.
+/// The samples of a shape, a few layers at a time.
 void fill_shape(const Shape& shape, const RowBlock& block) {
-  for (uint64_t k = block.z0; k < block.z1; ++k) {
-    RowBlock layer = block;
-    layer.words = block.row(block.y0, k);
-    layer.z0 = k;
-    layer.z1 = k + 1;
-    std::memset(layer.words, 0, layer.rows() * layer.row_stride * sizeof(uint64_t));
-    shape.fill_rows(layer);
+  const uint64_t together = shape.layers_together();
+  for (uint64_t k = block.z0; k < block.z1; k += together) {
+    RowBlock layers = block;
+    layers.words = block.row(block.y0, k);
+    layers.z0 = k;
+    layers.z1 = std::min(block.z1, k + together);
+    for (uint64_t n = layers.z0; n < layers.z1; ++n)
+      std::memset(layers.row(block.y0, n), 0, block.rows() * block.row_stride * sizeof(uint64_t));
+    shape.fill_rows(layers);
   }
 }
 
@@ -210,12 +212,12 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
                const FinishRows& finish) {
   const RowBlock slab = slab_of(grid, z0, z1, words);
   const Executor& executor = model.executor();
-  const auto for_each_layer = [&](const auto& visit) {
-    executor.for_each(z1 - z0, [&](uint64_t layer) {
+  const auto for_each_layer = [&](uint64_t together, const auto& visit) {
+    executor.for_each((z1 - z0 + together - 1) / together, [&](uint64_t n) {
       check_cancelled(job);
       RowBlock block = slab;
-      block.z0 = z0 + layer;
-      block.z1 = block.z0 + 1;
+      block.z0 = z0 + n * together;
+      block.z1 = std::min(z1, block.z0 + together);
       block.words = slab.row(0, block.z0);
       visit(block);
     });
@@ -223,7 +225,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   model.prepare_skins(resolved, job);
   if (!model.regions().empty()) {
     fill_regions(model, resolved, slab, executor, job, counts);
-    if (finish) for_each_layer([&](const RowBlock& block) { finish(block, 1); });
+    if (finish) for_each_layer(1, [&](const RowBlock& block) { finish(block, 1); });
     return;
   }
 
@@ -235,11 +237,15 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
     counts->by_shape += resolved.empty() ? points : points - samples_of(block);
   };
   const bool is_by_tile = fills_by_tile(model, resolved);
-  if (!is_by_tile)
-    for_each_layer([&](const RowBlock& block) {
+  if (!is_by_tile) {
+    // Threads take equal shares of the layers.
+    const uint64_t at_once = model.shape().layers_together() * executor.threads();
+    const uint64_t parts = executor.threads() * ((z1 - z0 + at_once - 1) / at_once);
+    for_each_layer((z1 - z0 + parts - 1) / parts, [&](const RowBlock& block) {
       fill_from_shape(block);
       if (resolved.empty() && finish) finish(block, 1);
     });
+  }
   if (resolved.empty()) return;
 
   // In the same order in each slab: what two slabs share is then found again after as many cells as

@@ -10,6 +10,7 @@
 
 #include "base/borrowed.h"
 #include "base/pi.h"
+#include "base/simd.h"
 #include "shape/half_angles.h"
 #include "shape/tree_triangle.h"
 
@@ -268,21 +269,36 @@ void Caps::gather(Vec3 centre, double radius, Nearby& near) const {
         return true;
       },
       [&](uint32_t triangle) {
-        near.triangles.push_back(triangle);
+        near.triangles.push_back({corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)});
         return true;
       });
 }
 
-Caps::View Caps::view(Vec3 point, const Nearby& near) const {
-  const Vec3 p = point * scale_;
-  Sum sum;
-  for (const uint32_t i : near.nodes) {
-    const Vec3 d = nodes_[i].centre - p;
-    sum.add(nodes_[i], d, length(d));
+void Caps::find_views(const Vec3* points, size_t count, const Nearby& near, View* views) const {
+  constexpr size_t batch = 64, padded = batch + max_simd_doubles;
+  double coordinates[3][padded], re[padded], im[padded], turns[padded], error[padded];
+  const CapSums sums{coordinates[0], coordinates[1], coordinates[2], re, im, turns, error};
+  for (size_t first = 0; first < count; first += batch) {
+    const size_t size = std::min(batch, count - first);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      for (size_t n = 0; n < size; ++n)
+        coordinates[axis][n] = points[first + n][static_cast<int>(axis)] * scale_;
+      std::fill_n(coordinates[axis] + size, max_simd_doubles, coordinates[axis][0]);
+    }
+    sum_caps(near.triangles.data(), near.triangles.size(), tolerance_, size, sums);
+    for (size_t n = 0; n < size; ++n) {
+      const Vec3 p = points[first + n] * scale_;
+      Sum sum;
+      sum.near = sums.sum(n);
+      sum.error = error[n];
+      for (const uint32_t i : near.nodes) {
+        const Vec3 d = nodes_[i].centre - p;
+        sum.add(nodes_[i], d, length(d));
+      }
+      views[first + n] = {sum.turns() + near.far.turns + dot(near.far.gradient, p - near.centre),
+                          sum.error + near.far.error + rounding_};
+    }
   }
-  for (const uint32_t t : near.triangles) look_at(t, p, sum);
-  return {sum.turns() + near.far.turns + dot(near.far.gradient, p - near.centre),
-          sum.error + near.far.error + rounding_};
 }
 
 /// The gradient of the solid angle: its bound, and the minimum distance to what causes it.

@@ -24,6 +24,7 @@
 
 #include "base/triangle_soup.h"
 #include "base/vec.h"
+#include "shape/cap_sums.h"
 #include "shape/open_edges.h"
 #include "shape/triangle_bins.h"
 #include "shape/triangle_rows.h"
@@ -57,7 +58,7 @@ class Caps {
   struct Nearby;
   /// Gathers the data that all points of a ball can share for their views.
   void gather(Vec3 centre, double radius, Nearby& near) const;
-  View view(Vec3 p, const Nearby& near) const;
+  void find_views(const Vec3* points, size_t count, const Nearby& near, View* views) const;
   /// Whether the generalised winding number of the mesh provably rounds to one number in a ball, if
   /// no triangle of the mesh is crossed. If `whole` is not null, also that no cap meets the ball
   /// and that *whole is the nearest integer at all points of it.
@@ -128,7 +129,8 @@ class Caps {
 };
 
 struct Caps::Nearby {
-  std::vector<uint32_t> nodes, triangles;
+  std::vector<uint32_t> nodes;
+  std::vector<CapTriangle> triangles;
   Vec3 centre;  // scaled
   FarView far;  // of the other nodes
 };

@@ -18,6 +18,10 @@ namespace msq {
 
 class HalfAngles {
  public:
+  HalfAngles() = default;
+  /// Of a sum that was taken elsewhere: the product, and how often it passed the axis.
+  HalfAngles(double re, double im, int64_t turns) : re_(re), im_(im), turns_(turns) {}
+
   /// Adds the argument of (re, im), from -pi to pi; the sign of an im of 0 distinguishes these two.
   /// Adds nothing if both are 0.
   void add(double re, double im) {

@@ -38,6 +38,7 @@ class Mesh final : public Shape {
 
   bool inside(Vec3 p) const override;
   void fill_rows(const RowBlock& block) const override;
+  uint64_t layers_together() const override;
   void prepare_distance(const Job* job) const override { boundary(job); }
   bool has_steady_distance() const override { return !open_ || open_->is_steady(); }
   /// To the triangles, of which some may bound nothing.

@@ -13,75 +13,100 @@ namespace msq {
 
 namespace {
 
-/// Samples [first, end) of rows of a layer.
+/// Layers that share what is proven about boxes of samples.
+constexpr uint64_t open_layers = 16;
+
+/// Samples [low, high) along each axis.
 struct Part {
-  uint64_t first, end, first_row, end_row;
+  std::array<uint64_t, 3> low, high;
+
+  uint64_t count(size_t axis) const { return high[axis] - low[axis]; }
 };
 
-/// A number for each square of `side` samples of a part.
+/// A number for each cube of `side` samples of a part.
 template <uint64_t side>
-class Squares {
+class Cubes {
  public:
   void reset(const Part& part) {
     part_ = part;
-    across_ = squares(part.first, part.end);
-    numbers_.assign(across_ * squares(part.first_row, part.end_row), 0);
+    for (size_t axis = 0; axis < 3; ++axis) counts_[axis] = (part.count(axis) + side - 1) / side;
+    numbers_.assign(counts_[0] * counts_[1] * counts_[2], 0);
   }
-  /// Of all squares that begin in `p`, which begins at a square.
+  /// Of all cubes that begin in `p`, which begins at a cube.
   void fill(const Part& p, int64_t number) {
-    const uint64_t x0 = (p.first - part_.first) / side, x1 = x0 + squares(p.first, p.end);
-    const uint64_t y0 = (p.first_row - part_.first_row) / side;
-    const uint64_t y1 = y0 + squares(p.first_row, p.end_row);
-    for (uint64_t y = y0; y < y1; ++y)
-      std::fill(&numbers_[y * across_ + x0], &numbers_[y * across_] + x1, number);
+    uint64_t begin[3], end[3];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      begin[axis] = (p.low[axis] - part_.low[axis]) / side;
+      end[axis] = begin[axis] + (p.count(axis) + side - 1) / side;
+    }
+    for (uint64_t z = begin[2]; z < end[2]; ++z)
+      for (uint64_t y = begin[1]; y < end[1]; ++y) {
+        int64_t* const row = &numbers_[(z * counts_[1] + y) * counts_[0]];
+        std::fill(row + begin[0], row + end[0], number);
+      }
+  }
+  /// Once all cubes are filled: where runs of equal numbers end.
+  void find_runs() {
+    ends_.resize(numbers_.size());
+    for (size_t row_end = numbers_.size(); row_end > 0; row_end -= counts_[0])
+      for (uint64_t n = 1; n <= counts_[0]; ++n) {
+        const size_t at = row_end - n;
+        const bool goes_on = n > 1 && numbers_[at] == numbers_[at + 1];
+        ends_[at] = goes_on ? ends_[at + 1] : static_cast<uint32_t>(counts_[0] - n + 1);
+      }
   }
   /// That of a sample, and of those after it in the row up to `end`.
-  int64_t run(uint64_t i, uint64_t j, uint64_t& end) const {
-    const int64_t* row = &numbers_[(j - part_.first_row) / side * across_];
-    const uint64_t square = (i - part_.first) / side;
-    uint64_t next = square + 1;
-    while (next < across_ && row[next] == row[square]) ++next;
-    end = std::min(part_.end, part_.first + next * side);
-    return row[square];
+  int64_t run(uint64_t i, uint64_t j, uint64_t k, uint64_t& end) const {
+    const uint64_t row = (k - part_.low[2]) / side * counts_[1] + (j - part_.low[1]) / side;
+    const size_t cube = row * counts_[0] + (i - part_.low[0]) / side;
+    end = std::min(part_.high[0], part_.low[0] + ends_[cube] * side);
+    return numbers_[cube];
   }
-  /// Where a sample lies in its square, which is filled row by row.
-  uint64_t place(uint64_t i, uint64_t j) const {
-    return (j - part_.first_row) % side * side + (i - part_.first) % side;
+  /// Where a sample lies in its cube.
+  uint64_t place(uint64_t i, uint64_t j, uint64_t k) const {
+    return ((k - part_.low[2]) % side * side + (j - part_.low[1]) % side) * side +
+           (i - part_.low[0]) % side;
   }
 
  private:
-  static uint64_t squares(uint64_t from, uint64_t to) { return (to - from + side - 1) / side; }
-
   Part part_{};
-  uint64_t across_ = 0;
+  std::array<uint64_t, 3> counts_{};
   std::vector<int64_t> numbers_;
+  std::vector<uint32_t> ends_;  // in its row, the cube after the run that begins at a cube
 };
 
 /// What the winding numbers of the row rule, through mesh and caps, exceed those of the samples of
-/// a layer by: one number over a rectangle where that is proven, else sample by sample.
+/// some layers by: one number over a box where that is proven, else sample by sample.
 class WholeParts {
  public:
   static constexpr int64_t not_proven = INT64_MIN;
   /// Rows that are known at once, which bounds what is kept of the parts.
   static constexpr uint64_t band = 64;
+  static_assert(open_layers <= band);
 
-  /// `all`: not empty. Far from caps large squares are proven at once.
-  WholeParts(const OpenMesh& mesh, const SampleGrid& grid, double z, const Part& all)
-      : mesh_(mesh), grid_(grid), z_(z), all_(all) {
+  /// `all`: not empty. Far from caps large boxes are proven at once.
+  WholeParts(const OpenMesh& mesh, const SampleGrid& grid, const Part& all)
+      : mesh_(mesh), grid_(grid), all_(all) {
     coarse_.reset(all);
     divide<band>(
         all, [&](const Part& p, int64_t whole) { coarse_.fill(p, whole); },
         [&](const Part& p, Vec3, double) { coarse_.fill(p, not_proven); });
+    coarse_.find_runs();
   }
 
   /// Goes to the band that begins at a row.
   void set(uint64_t first_row) {
-    const Part part{all_.first, all_.end, first_row, std::min(all_.end_row, first_row + band)};
+    Part part = all_;
+    part.low[1] = first_row;
+    part.high[1] = std::min(all_.high[1], first_row + band);
     fine_.reset(part);
     single_.clear();
-    for (uint64_t i = part.first, next; i < part.end; i = next) {
-      const int64_t whole = coarse_.run(i, first_row, next);
-      const Part run{i, next, part.first_row, part.end_row};
+    // All layers are in one coarse cube.
+    for (uint64_t i = part.low[0], next; i < part.high[0]; i = next) {
+      const int64_t whole = coarse_.run(i, first_row, part.low[2], next);
+      Part run = part;
+      run.low[0] = i;
+      run.high[0] = next;
       if (whole != not_proven)
         fine_.fill(run, whole);
       else
@@ -89,73 +114,84 @@ class WholeParts {
             run, [&](const Part& p, int64_t found) { fine_.fill(p, found); },
             [&](const Part& p, Vec3 centre, double radius) { look_into(p, centre, radius); });
     }
+    fine_.find_runs();
   }
 
   /// That of a sample, and of those after it up to `end`.
-  int64_t run(uint64_t i, uint64_t j, uint64_t& end) const {
-    const int64_t whole = fine_.run(i, j, end);
+  int64_t run(uint64_t i, uint64_t j, uint64_t k, uint64_t& end) const {
+    const int64_t whole = fine_.run(i, j, k, end);
     if (whole >= first_single) return whole;
-    end = i + 1;
-    return single_[static_cast<size_t>(whole - not_proven)][fine_.place(i, j)];
+    const int64_t* const found =
+        &single_[static_cast<size_t>(whole - not_proven)][fine_.place(i, j, k)];
+    uint64_t n = 1;
+    while (i + n < end && found[n] == *found) ++n;
+    end = i + n;
+    return *found;
   }
 
  private:
-  static constexpr uint64_t side = 4;  // samples of a square
-  using Square = std::array<int64_t, side * side>;
+  static constexpr uint64_t side = 4;  // samples of a cube
+  using Cube = std::array<int64_t, side * side * side>;
   static constexpr int64_t first_single = INT64_MIN / 2;
 
   /// Calls whole(part, number) for parts over which there is one number, and rest(part, centre,
-  /// radius) with a ball about the others, squares of `least` samples.
+  /// radius) with a ball about the others, cubes of `least` samples.
   template <uint64_t least, class Whole, class Rest>
   void divide(const Part& p, const Whole& whole, const Rest& rest) {
-    const Vec3 low{grid_.x(p.first), grid_.y(p.first_row), z_};
-    const Vec3 high{grid_.x(p.end - 1), grid_.y(p.end_row - 1), z_};
+    const Vec3 low = grid_.at(p.low[0], p.low[1], p.low[2]);
+    const Vec3 high = grid_.at(p.high[0] - 1, p.high[1] - 1, p.high[2] - 1);
     const Vec3 extent = high - low, centre = (low + high) * 0.5;
     const double radius =
         (0.5 + 0x1p-20) * length(extent) + 0x1p-48 * (max_magnitude(low) + max_magnitude(high));
     int64_t number;
     if (mesh_.is_whole_about(centre, radius, number)) return whole(p, number);
-    const bool splits_x = p.end - p.first > least, splits_y = p.end_row - p.first_row > least;
-    const auto middle = [](uint64_t from, uint64_t to) {
-      return from + (to - from + 2 * least - 1) / (2 * least) * least;
-    };
-    if (splits_x && (!splits_y || extent.x >= extent.y)) {
-      const uint64_t at = middle(p.first, p.end);
-      divide<least>({p.first, at, p.first_row, p.end_row}, whole, rest);
-      divide<least>({at, p.end, p.first_row, p.end_row}, whole, rest);
-    } else if (splits_y) {
-      const uint64_t at = middle(p.first_row, p.end_row);
-      divide<least>({p.first, p.end, p.first_row, at}, whole, rest);
-      divide<least>({p.first, p.end, at, p.end_row}, whole, rest);
-    } else {
-      rest(p, centre, radius);
-    }
+    size_t longest = 3;
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (p.count(axis) > least &&
+          (longest == 3 || extent[static_cast<int>(axis)] > extent[static_cast<int>(longest)]))
+        longest = axis;
+    if (longest == 3) return rest(p, centre, radius);
+    Part lower = p, upper = p;
+    lower.high[longest] = upper.low[longest] =
+        p.low[longest] + (p.count(longest) + 2 * least - 1) / (2 * least) * least;
+    divide<least>(lower, whole, rest);
+    divide<least>(upper, whole, rest);
   }
 
   void look_into(const Part& p, Vec3 centre, double radius) {
     mesh_.caps().gather(centre, radius, near_);
-    Square square;
-    square.fill(not_proven);
-    for (uint64_t j = p.first_row; j < p.end_row; ++j)
-      for (uint64_t i = p.first; i < p.end; ++i) {
-        const Caps::View view = mesh_.caps().view({grid_.x(i), grid_.y(j), z_}, near_);
-        if (view.margin() > 0) square[(j - p.first_row) * side + i - p.first] = view.whole();
-      }
     fine_.fill(p, not_proven + static_cast<int64_t>(single_.size()));
-    single_.push_back(square);
+    Cube& cube = single_.emplace_back();
+    cube.fill(not_proven);
+    std::array<Vec3, side * side * side> points;
+    std::array<uint64_t, side * side * side> places;
+    std::array<Caps::View, side * side * side> views;
+    size_t count = 0;
+    for (uint64_t k = p.low[2]; k < p.high[2]; ++k)
+      for (uint64_t j = p.low[1]; j < p.high[1]; ++j)
+        for (uint64_t i = p.low[0]; i < p.high[0]; ++i, ++count) {
+          points[count] = grid_.at(i, j, k);
+          places[count] = fine_.place(i, j, k);
+        }
+    mesh_.caps().find_views(points.data(), count, near_, views.data());
+    for (size_t n = 0; n < count; ++n)
+      if (views[n].margin() > 0) cube[places[n]] = views[n].whole();
   }
 
   const OpenMesh& mesh_;
   const SampleGrid& grid_;
-  const double z_;
   const Part all_;
-  Squares<band> coarse_;
-  Squares<side> fine_;  // of the current band; below first_single, its samples are in single_
-  std::vector<Square> single_;
+  Cubes<band> coarse_;
+  Cubes<side> fine_;  // of the current band; below first_single, its samples are in single_
+  std::vector<Cube> single_;
   Caps::Nearby near_;
 };
 
 }  // namespace
+
+uint64_t Mesh::layers_together() const {
+  return open_ ? open_layers : 1;
+}
 
 void Mesh::fill_open_rows(const RowBlock& block) const {
   const SampleGrid& grid = *block.grid;
@@ -167,34 +203,50 @@ void Mesh::fill_open_rows(const RowBlock& block) const {
   const uint64_t end_row = row_from(grid.first_y_from<true>(box.max.y));
   if (first >= end || first_row >= end_row) return;
 
-  std::vector<RowCrossing> crossings, sorted;
-  std::vector<uint32_t> row_ends;
-  for (uint64_t k = block.z0; k < block.z1; ++k) {
-    const double z = grid.z(k);
-    if (z < box.min.z || z > box.max.z) continue;
-    crossings.clear();
-    add_crossings(soup_, sheets_.at(box.min.y, z), block, k, crossings);
-    add_crossings(open_->caps().soup(), open_->caps().at_height(z), block, k, crossings);
-    sort_by_row(crossings, block.rows(), row_ends, sorted);
-    WholeParts parts(*open_, grid, z, {first, end, first_row, end_row});
-    for (uint64_t j = first_row; j < end_row; ++j) {
-      if ((j - first_row) % WholeParts::band == 0) parts.set(j);
-      const uint64_t r = j - block.y0;
-      RowCrossing* const row_begin = sorted.data() + (r ? row_ends[r - 1] : 0);
-      RowCrossing* const row_end = sorted.data() + row_ends[r];
-      std::sort(row_begin, row_end,
-                [](const RowCrossing& a, const RowCrossing& b) { return a.x < b.x; });
-      uint64_t* const row = block.row(j, k);
-      for (uint64_t i = first, next; i < end; i = next) {
-        const int64_t whole = parts.run(i, j, next);
-        if (whole == WholeParts::not_proven) {
-          for (; i < next; ++i)
-            if (inside({grid.x(i), grid.y(j), z})) set_bits(row, i, i);
-        } else if (whole != 0 || row_begin != row_end) {
-          fill_between(row_begin, row_end, grid, i, next, row,
-                       [whole](int64_t winding) { return winding != whole; });
-        }
+  uint64_t first_layer = block.z0, end_layer = block.z1;
+  while (first_layer < end_layer && grid.z(first_layer) < box.min.z) ++first_layer;
+  while (first_layer < end_layer && grid.z(end_layer - 1) > box.max.z) --end_layer;
+  // Of mesh and caps, by rows of the block.
+  struct LayerCrossings {
+    std::vector<uint32_t> row_ends;
+    std::vector<RowCrossing> sorted;
+  };
+  const auto fill_row = [&](const WholeParts& parts, LayerCrossings& layer, uint64_t j,
+                            uint64_t k) {
+    const uint64_t r = j - block.y0;
+    RowCrossing* const row_begin = layer.sorted.data() + (r ? layer.row_ends[r - 1] : 0);
+    RowCrossing* const row_end = layer.sorted.data() + layer.row_ends[r];
+    std::sort(row_begin, row_end,
+              [](const RowCrossing& a, const RowCrossing& b) { return a.x < b.x; });
+    uint64_t* const row = block.row(j, k);
+    for (uint64_t i = first, next; i < end; i = next) {
+      const int64_t whole = parts.run(i, j, k, next);
+      if (whole == WholeParts::not_proven) {
+        for (; i < next; ++i)
+          if (inside(grid.at(i, j, k))) set_bits(row, i, i);
+      } else if (whole != 0 || row_begin != row_end) {
+        fill_between(row_begin, row_end, grid, i, next, row,
+                     [whole](int64_t winding) { return winding != whole; });
       }
+    }
+  };
+  std::vector<RowCrossing> crossings;
+  std::vector<LayerCrossings> layers(std::min(end_layer - first_layer, open_layers));
+  for (uint64_t k0 = first_layer; k0 < end_layer; k0 += open_layers) {
+    const uint64_t k1 = std::min(end_layer, k0 + open_layers);
+    for (uint64_t k = k0; k < k1; ++k) {
+      LayerCrossings& layer = layers[k - k0];
+      crossings.clear();
+      add_crossings(soup_, sheets_.at(box.min.y, grid.z(k)), block, k, crossings);
+      add_crossings(open_->caps().soup(), open_->caps().at_height(grid.z(k)), block, k, crossings);
+      sort_by_row(crossings, block.rows(), layer.row_ends, layer.sorted);
+    }
+    WholeParts parts(*open_, grid, {{first, first_row, k0}, {end, end_row, k1}});
+    for (uint64_t j0 = first_row; j0 < end_row; j0 += WholeParts::band) {
+      parts.set(j0);
+      for (uint64_t k = k0; k < k1; ++k)
+        for (uint64_t j = j0; j < std::min(end_row, j0 + WholeParts::band); ++j)
+          fill_row(parts, layers[k - k0], j, k);
     }
   }
 }
