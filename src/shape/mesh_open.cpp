@@ -121,17 +121,19 @@ class WholeParts {
   int64_t run(uint64_t i, uint64_t j, uint64_t k, uint64_t& end) const {
     const int64_t whole = fine_.run(i, j, k, end);
     if (whole >= first_single) return whole;
-    const int64_t* const found =
+    const int16_t* const found =
         &single_[static_cast<size_t>(whole - not_proven)][fine_.place(i, j, k)];
     uint64_t n = 1;
     while (i + n < end && found[n] == *found) ++n;
     end = i + n;
-    return *found;
+    return *found == single_not_proven ? not_proven : *found;
   }
 
  private:
   static constexpr uint64_t side = 4;  // samples of a cube
-  using Cube = std::array<int64_t, side * side * side>;
+  /// Small, as a band may have many. Larger numbers are as good as not proven.
+  using Cube = std::array<int16_t, side * side * side>;
+  static constexpr int16_t single_not_proven = INT16_MIN;
   static constexpr int64_t first_single = INT64_MIN / 2;
 
   /// Calls whole(part, number) for parts over which there is one number, and rest(part, centre,
@@ -162,7 +164,7 @@ class WholeParts {
     mesh_.caps().gather(centre, radius, near_);
     fine_.fill(p, not_proven + static_cast<int64_t>(single_.size()));
     Cube& cube = single_.emplace_back();
-    cube.fill(not_proven);
+    cube.fill(single_not_proven);
     std::array<Vec3, side * side * side> points;
     std::array<uint64_t, side * side * side> places;
     std::array<Caps::View, side * side * side> views;
@@ -175,7 +177,8 @@ class WholeParts {
         }
     mesh_.caps().find_views(points.data(), count, near_, views.data());
     for (size_t n = 0; n < count; ++n)
-      if (views[n].margin() > 0) cube[places[n]] = views[n].whole();
+      if (views[n].margin() > 0 && std::abs(views[n].turns) < -single_not_proven - 1)
+        cube[places[n]] = static_cast<int16_t>(views[n].whole());
   }
 
   const OpenMesh& mesh_;

@@ -264,6 +264,9 @@ std::vector<Kind> kinds() {
                    warped_factory(preset_expressions[7], sheet, cylinder)});
   kinds.push_back({"warped", "choice around an axis, to it", 0.05, 1,
                    warped_factory(choice, network, cylinder, 0)});
+  // It jumps where cells end.
+  kinds.push_back({"warped", "ramp around an axis", 0.2, 1,
+                   warped_factory("x + 0.5*sin(z)*cos(y) - 4", network, cylinder)});
   kinds.push_back({"warped", "gyroid around a point", 0.2, 1,
                    warped_factory(preset_expressions[0], sheet, sphere)});
   kinds.push_back({"warped", "gyroid, sheared", 0.2, 1,
