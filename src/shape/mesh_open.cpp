@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/job.h"
 #include "shape/mesh.h"
 #include "shape/triangle_rows.h"
 
@@ -140,6 +141,7 @@ class WholeParts {
   /// radius) with a ball about the others, cubes of `least` samples.
   template <uint64_t least, class Whole, class Rest>
   void divide(const Part& p, const Whole& whole, const Rest& rest) {
+    check_cancelled();
     const Vec3 low = grid_.at(p.low[0], p.low[1], p.low[2]);
     const Vec3 high = grid_.at(p.high[0] - 1, p.high[1] - 1, p.high[2] - 1);
     const Vec3 extent = high - low, centre = (low + high) * 0.5;
@@ -216,6 +218,7 @@ void Mesh::fill_open_rows(const RowBlock& block) const {
   };
   const auto fill_row = [&](const WholeParts& parts, LayerCrossings& layer, uint64_t j,
                             uint64_t k) {
+    check_cancelled();
     const uint64_t r = j - block.y0;
     RowCrossing* const row_begin = layer.sorted.data() + (r ? layer.row_ends[r - 1] : 0);
     RowCrossing* const row_end = layer.sorted.data() + layer.row_ends[r];
