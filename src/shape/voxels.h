@@ -27,6 +27,9 @@ class Voxels final : public Shape {
   /// longer than the tolerance is missed.
   bool enter(const Ray& ray, double from, double to, double& t, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
+  /// Where the ray enters through a face of the image, that of the face; else the gradient of the
+  /// function.
+  Vec3 normal(const Ray& ray, double t) const override;
 
   const Image& image() const { return image_; }
 

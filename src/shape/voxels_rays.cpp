@@ -250,6 +250,41 @@ bool Voxels::enter(const Ray& ray, double from, double to, double& t, const Job*
   return clip_to_box(ray, bounds(), from, to) && find(true, ray, from, to, t, job);
 }
 
+Vec3 Voxels::normal(const Ray& ray, double t) const {
+  const Rotation& rotation = image_.frame().rotation;
+  const Vec3 p = ray.at(t), u = image_.to_voxels(p);
+  const Vec3 along = rotation.apply_inverse(ray.direction) * image_.scale();
+  // Hits are rounded, and settled within the tolerance of rays.
+  const double near = border + max_component(image_.scale()) * ray_tolerance() * 4;
+  const Vec3 before = u - along * (near / length(along));
+  if (solid(image_.value(u + along * (4 * ray_tolerance() + near / length(along))))) {
+    Vec3 outward;
+    double steepest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double last = static_cast<double>(image_.cells(axis));
+      const bool is_on_face = along[axis] > 0 ? u[axis] <= near : u[axis] >= last - near;
+      if (!is_on_face || !(std::abs(along[axis]) > steepest)) continue;
+      steepest = std::abs(along[axis]);
+      outward = {};
+      outward[axis] = along[axis] > 0 ? -1 : 1;
+    }
+    if (steepest > 0 && solid(image_.value(before))) return rotation.apply(outward);
+  }
+  // Of the cell that the ray comes from: linear along each axis from one end to the other.
+  Vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 low = before, high = before;
+    low[axis] = static_cast<double>(image_.locate(before[axis], axis).cell);
+    high[axis] = low[axis] + 1;
+    gradient[axis] = (image_.value(high) - image_.value(low)) * image_.scale()[axis];
+  }
+  const double steepness = length(gradient);
+  if (!(steepness > 0 && std::isfinite(steepness))) return Shape::normal(ray, t);
+  const double sign = solid_ == Solid::above ? -1 : 1;
+  const Vec3 outward = rotation.apply(gradient * (sign / steepness));
+  return dot(outward, ray.direction) > 0 ? Shape::normal(ray, t) : outward;
+}
+
 double Voxels::leave(const Ray& ray, double from, double to, const Job* job) const {
   if (!clip_to_box(ray, bounds(), from, to)) return from;
   double t;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/ray_normal.h"
+#include "flat_boundary.h"
 #include "structures.h"
 
 namespace msq::test {
@@ -91,8 +92,7 @@ class RayChecker {
 
   size_t hits = 0, grazes = 0, normals = 0;
   size_t outward = 0, inward = 0;  // normals
-  /// Those across which the boundary is flat, and others: near edges, or they are wrong.
-  size_t straight = 0, tilted = 0;
+  Flatness flatness;
 
  private:
   static constexpr size_t ray_samples = 256, window_samples = 64;
@@ -145,7 +145,9 @@ class RayChecker {
     const double step = normal_step_;
     const bool is_out = !structure_.inside(p + n * step) && structure_.inside(p - n * step);
     ++(is_out ? outward : inward);
-    if (rounding_ == 0) ++(is_flat_across(p, n) ? straight : tilted);
+    if (rounding_ == 0)
+      flatness.add(
+          is_flat_across(p, n, 1e-4 * cell_, [&](Vec3 q) { return structure_.inside(q); }));
     if (!structure_.has_onset()) return;
     Vec3 gradient;
     bool is_smooth = true;
@@ -164,21 +166,6 @@ class RayChecker {
     ++normals;
     const double off = length(n - gradient * (1 / size));
     if (!(off < normal_limit_)) fail_at(search.ray, search.t, "has another normal", off);
-  }
-
-  /// Whether the boundary near a point of it keeps within 1 degree of the plane across n.
-  bool is_flat_across(Vec3 p, Vec3 n) const {
-    const double along = 1e-4 * cell_;
-    const Vec3 beside = n * (0.02 * along);
-    Vec3 axis;
-    axis[std::abs(n.x) < 0.6 ? 0 : 1] = 1;
-    const Vec3 u = cross(n, axis), v = cross(n, u * (1 / length(u)));
-    for (const Vec3 way : {u, v})
-      for (const double side : {-along, along}) {
-        const Vec3 q = p + way * (side / length(way));
-        if (structure_.inside(q + beside) || !structure_.inside(q - beside)) return false;
-      }
-    return true;
   }
 
   /// By how much the onset rises above the radius along an axis, and how much that jumps.

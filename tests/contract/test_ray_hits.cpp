@@ -23,17 +23,14 @@ namespace {
 
 size_t asked_rays = 0;  // of each row, on the command line
 
-/// Normals of all rows of a family: rows alone have few, and some of them near edges.
-struct Flatness {
-  size_t straight = 0, tilted = 0;
-};
+/// Of all rows of a family: rows alone have few normals, and some of them near edges.
 std::map<std::string, Flatness> flatness;
 
 /// The number of families whose normals are not across the boundary.
 int tilted_families() {
   int count = 0;
   for (const auto& [family, normals] : flatness) {
-    if (normals.tilted < 10 || normals.tilted * 3 < normals.straight) continue;
+    if (!normals.are_most_tilted()) continue;
     print_error("%s: %zu normals are tilted, %zu are not\n", family.c_str(), normals.tilted,
                 normals.straight);
     ++count;
@@ -141,8 +138,8 @@ void test_row(void** state) {
   assert_true(checker.hits > 0);
   // Structures of the host that know membership alone have estimates.
   if (row.kind.family != "host" || structure->has_onset()) {
-    flatness[row.kind.family].straight += checker.straight;
-    flatness[row.kind.family].tilted += checker.tilted;
+    flatness[row.kind.family].straight += checker.flatness.straight;
+    flatness[row.kind.family].tilted += checker.flatness.tilted;
   }
   if (count < 50) return;
   if (structure->has_onset()) assert_true(checker.normals > 0);
