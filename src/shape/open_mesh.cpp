@@ -31,8 +31,8 @@ OpenMesh::OpenMesh(const TriangleSoup& soup, const Loops& loops, const Box3& bou
       volume_of_holes_(msq::volume_of_holes(soup, caps_.soup(), loops.vertices, bounds)) {}
 
 uint64_t OpenMesh::bytes_to_build(uint64_t triangles, uint64_t edges) {
-  // Uses of edges; loops, caps, their tree and bins.
-  return triangles * 64 + edges * 500;
+  // Uses of edges; loops, caps, their neighbours, tree and bins.
+  return triangles * 64 + edges * 700;
 }
 
 int64_t OpenMesh::correction(Vec3 p) const {
