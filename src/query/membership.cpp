@@ -265,32 +265,22 @@ bool fills_by_tile(const Model& model, const Scales& resolved) {
   return model.regions().empty() && !resolved.empty() && model.shape().fills_rows_apart();
 }
 
-namespace {
-
-/// Rows of a tile of fill_tiles().
-uint64_t rows_together_of_tile(const Model& model, const Scales& resolved, const SampleGrid& grid,
-                               uint64_t layers, uint64_t rows_together) {
-  const uint64_t rows = rows_of_tile(model, resolved, grid, layers);
-  return rows - rows % rows_together;
-}
-
-}  // namespace
-
 void fill_tiles(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
                 uint64_t z1, uint64_t rows_together, const Job* job, const FinishRows& finish) {
   static_assert(min_tile_rows % 16 == 0);
   model.prepare_skins(resolved, job);
   const RowBlock slab = slab_of(grid, z0, z1, nullptr);
-  const uint64_t rows = rows_together_of_tile(model, resolved, grid, slab.layers(), rows_together);
-  for_each_tile(slab, rows, model.executor(), job, [&](const RowBlock& tile) {
-    const Borrowed<std::vector<uint64_t>> words;
-    const size_t size = tile.row_words() * tile.rows() * tile.layers();
-    if (words->size() < size) words->resize(size);
-    const RowBlock block = copy_of(tile, words->data());
-    fill_shape(model.shape(), block);
-    for (const Scale* scale : resolved) scale->keep_rows(block, job);
-    finish(block, 1);
-  });
+  const uint64_t rows = rows_of_tile(model, resolved, grid, slab.layers());
+  for_each_tile(slab, rows - rows % rows_together, model.executor(), job,
+                [&](const RowBlock& tile) {
+                  const Borrowed<std::vector<uint64_t>> words;
+                  const size_t size = tile.row_words() * tile.rows() * tile.layers();
+                  if (words->size() < size) words->resize(size);
+                  const RowBlock block = copy_of(tile, words->data());
+                  fill_shape(model.shape(), block);
+                  for (const Scale* scale : resolved) scale->keep_rows(block, job);
+                  finish(block, 1);
+                });
 }
 
 uint64_t fill_tiles_words(const Model& model, const Scales& resolved, const SampleGrid& grid,

@@ -252,24 +252,24 @@ bool Voxels::enter(const Ray& ray, double from, double to, double& t, const Job*
 
 Vec3 Voxels::normal(const Ray& ray, double t) const {
   const Rotation& rotation = image_.frame().rotation;
-  const Vec3 p = ray.at(t), u = image_.to_voxels(p);
+  const Vec3 u = image_.to_voxels(ray.at(t));
   const Vec3 along = rotation.apply_inverse(ray.direction) * image_.scale();
   // Hits are rounded, and settled within the tolerance of rays.
   const double near = border + max_component(image_.scale()) * ray_tolerance() * 4;
-  const Vec3 before = u - along * (near / length(along));
-  if (solid(image_.value(u + along * (4 * ray_tolerance() + near / length(along))))) {
-    Vec3 outward;
-    double steepest = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double last = static_cast<double>(image_.cells(axis));
-      const bool is_on_face = along[axis] > 0 ? u[axis] <= near : u[axis] >= last - near;
-      if (!is_on_face || !(std::abs(along[axis]) > steepest)) continue;
-      steepest = std::abs(along[axis]);
-      outward = {};
-      outward[axis] = along[axis] > 0 ? -1 : 1;
-    }
-    if (steepest > 0 && solid(image_.value(before))) return rotation.apply(outward);
+  const double step = near / length(along);
+  const Vec3 before = u - along * step, behind = u + along * (4 * ray_tolerance() + step);
+  Vec3 of_face;
+  double steepest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double last = static_cast<double>(image_.cells(axis));
+    const bool is_on_face = along[axis] > 0 ? u[axis] <= near : u[axis] >= last - near;
+    if (!is_on_face || !(std::abs(along[axis]) > steepest)) continue;
+    steepest = std::abs(along[axis]);
+    of_face = {};
+    of_face[axis] = along[axis] > 0 ? -1 : 1;
   }
+  if (steepest > 0 && solid(image_.value(before)) && solid(image_.value(behind)))
+    return rotation.apply(of_face);
   // Of the cell that the ray comes from: linear along each axis from one end to the other.
   Vec3 gradient;
   for (int axis = 0; axis < 3; ++axis) {

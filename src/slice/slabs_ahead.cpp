@@ -45,12 +45,10 @@ SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
       ahead_job_(job) {
   if (grids_.empty()) return;
   const bool is_one_slab = depth.others == last - first && bands.count() == 1;
-  for (const SampleGrid& grid : grids_) {
-    const uint64_t across = rows_of_pixel(grid, bands);
-    const RowOutput* const output = uses_[layer_words_.size()].output;
-    const uint64_t words =
-        bytes_of_rows(rows_of(grid, 0, across * bands.band_rows), across, output) /
-        sizeof(uint64_t);
+  for (size_t g = 0; g < grids_.size(); ++g) {
+    const uint64_t across = rows_of_pixel(grids_[g], bands);
+    const SampleGrid band = rows_of(grids_[g], 0, across * bands.band_rows);
+    const uint64_t words = bytes_of_rows(band, across, uses_[g].output) / sizeof(uint64_t);
     layer_words_.push_back(words);
     const auto layers = [words](uint64_t count) {
       return GridSlab{std::make_unique_for_overwrite<uint64_t[]>(count * words),

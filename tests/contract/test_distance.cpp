@@ -14,13 +14,6 @@ using namespace msq::test;
 
 namespace {
 
-Vec3 direction(Random& random) {
-  for (;;) {
-    const Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
-    if (const double l = length(d); l > 0.1 && l < 1) return d * (1 / l);
-  }
-}
-
 /// The direction in which the distance grows fastest, about.
 Vec3 gradient(const Structure& structure, Vec3 p, double step) {
   Vec3 g;
@@ -74,13 +67,13 @@ void test_row(void** state) {
       const double size = std::abs(d);
       // The least number stands for no distance at all.
       for (int n = 0; n < 12 && size > std::numeric_limits<double>::min(); ++n) {
-        const Vec3 way = n == 0 ? up * (d > 0 ? -1.0 : 1.0) : direction(random);
+        const Vec3 way = n == 0 ? up * (d > 0 ? -1.0 : 1.0) : random.direction();
         const Vec3 other = p + way * (size * (n < 6 ? 1 - 1e-12 : random.unit()));
         check_point(row, *structure, p, d, "its ball meets the boundary",
                     structure->inside(other) == is_inside);
       }
       // Neighbours, over the borders of cells where coordinates lie on them.
-      const Vec3 next = p + direction(random) * (1e-7 * unit);
+      const Vec3 next = p + random.direction() * (1e-7 * unit);
       check_point(row, *structure, p, d, "it jumps",
                   std::abs(structure->distance(next) - d) <= 1e-7 * unit + rounding);
     }

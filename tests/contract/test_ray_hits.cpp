@@ -137,10 +137,8 @@ void test_row(void** state) {
   }
   assert_true(checker.hits > 0);
   // Structures of the host that know membership alone have estimates.
-  if (row.kind.family != "host" || structure->has_onset()) {
-    flatness[row.kind.family].straight += checker.flatness.straight;
-    flatness[row.kind.family].tilted += checker.flatness.tilted;
-  }
+  if (row.kind.family != "host" || structure->has_onset())
+    flatness[row.kind.family].add(checker.flatness);
   if (count < 50) return;
   if (structure->has_onset()) assert_true(checker.normals > 0);
   if (checker.inward * 10 > checker.outward)

@@ -15,13 +15,6 @@ using namespace msq::test;
 
 namespace {
 
-Vec3 direction(Random& random) {
-  for (;;) {
-    const Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
-    if (const double l = length(d); l > 0.1 && l < 1) return d * (1 / l);
-  }
-}
-
 /// Distance from a point to a triangle by the region that it lies in. Source: Ericson, "Real-Time
 /// Collision Detection", 2005, section 5.1.5.
 double triangle_distance(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
@@ -95,7 +88,7 @@ void test_row(void** state) {
     // The least number stands for no distance at all.
     for (int n = 0; n < 4 && std::abs(d) > std::numeric_limits<double>::min(); ++n) {
       const Vec3 other =
-          p + direction(random) * (std::abs(d) * (n < 2 ? 1 - 1e-12 : random.unit()));
+          p + random.direction() * (std::abs(d) * (n < 2 ? 1 - 1e-12 : random.unit()));
       check("its ball meets the boundary", shape->inside(other) == is_inside);
     }
     if (i % 8 == 0 && mesh) {
@@ -190,9 +183,9 @@ void test_slivers(void**) {
   Random random(6);
   for (int n = 0; n < static_cast<int>(test_count(2000)); ++n) {
     TriangleSoup soup;
-    const Vec3 a = random.in_box({{-1, -1, -1}, {1, 1, 1}}), along = direction(random);
+    const Vec3 a = random.in_box({{-1, -1, -1}, {1, 1, 1}}), along = random.direction();
     const double width = std::pow(10.0, random.between(-17, 0));
-    soup.vertices = {a, a + along, a + along * random.unit() + direction(random) * width};
+    soup.vertices = {a, a + along, a + along * random.unit() + random.direction() * width};
     soup.triangles = {{0, 1, 2}, {0, 2, 1}};
     const Mesh mesh(soup, WindingRule::even_odd, std::make_shared<MemoryBudget>(uint64_t{0}));
     if (mesh.triangles().empty()) continue;
@@ -200,7 +193,7 @@ void test_slivers(void**) {
       const double s = random.unit(), t = random.unit() * (1 - s);
       const Vec3 on = soup.vertices[0] * (1 - s - t) + soup.vertices[1] * s + soup.vertices[2] * t;
       const double off = std::pow(10.0, random.between(-12, 1));
-      const Vec3 p = on + direction(random) * off;
+      const Vec3 p = on + random.direction() * off;
       const double d = std::abs(mesh.distance(p)), most = length(p - on);
       if (d > most) fail_msg("%.17g, but a point is %.17g away (width %g)", d, most, width);
     }

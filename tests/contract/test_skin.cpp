@@ -144,13 +144,6 @@ void check_rows(const Shape& shape, const Scale& scale, const SampleGrid& grid,
   });
 }
 
-Vec3 direction(Random& random) {
-  for (;;) {
-    const Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
-    if (const double l = length(d); l > 0.1 && l < 1) return d * (1 / l);
-  }
-}
-
 void check_distance(const Shape& shape, const Scale& scale, const char* thickness, Random& random) {
   const size_t count = test_count(400);
   for (size_t i = 0; i < count; ++i) {
@@ -167,7 +160,7 @@ void check_distance(const Shape& shape, const Scale& scale, const char* thicknes
     check("it is not finite", std::isfinite(d));
     for (int n = 0; n < 4 && std::abs(d) > std::numeric_limits<double>::min(); ++n) {
       const double part = n < 2 ? 1 - 1e-12 : random.unit();
-      const Vec3 other = p + direction(random) * (std::abs(d) * part);
+      const Vec3 other = p + random.direction() * (std::abs(d) * part);
       if (shape.inside(other))
         check("its ball meets the boundary", scale.inside(other) == is_inside);
     }

@@ -27,6 +27,13 @@ class Random {
     for (int i = 0; i < 12; ++i) sum += unit();
     return sum;
   }
+  /// Of length 1.
+  Vec3 direction() {
+    for (;;) {
+      const Vec3 d = in_box({{-1, -1, -1}, {1, 1, 1}});
+      if (const double l = length(d); l > 0.1 && l < 1) return d * (1 / l);
+    }
+  }
 
  private:
   std::mt19937_64 engine_;

@@ -51,15 +51,8 @@ size_t check(const char* name, const std::vector<Beam>& beams, const SampleGrid&
   return held;
 }
 
-Vec3 direction(Random& random) {
-  for (;;) {
-    const Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
-    if (const double l = length(d); l > 0.1 && l < 1) return d * (1 / l);
-  }
-}
-
 Beam any_beam(Random& random, double size) {
-  Vec3 along = direction(random);
+  Vec3 along = random.direction();
   switch (random.below(6)) {
     case 0:  // along an axis
       along = {};
@@ -110,7 +103,7 @@ void any_beam_in_any_grid(void**) {
     if (beams.empty()) continue;
     const double unit = std::exp2(random.between(-40, 40));
     const double far = random.below(3) ? 0 : std::exp2(random.between(0, 24));
-    const Vec3 shift = direction(random) * (far * size * unit);
+    const Vec3 shift = random.direction() * (far * size * unit);
     for (Beam& beam : beams) {
       beam.a = beam.a * unit + shift;
       beam.b = beam.b * unit + shift;
@@ -197,7 +190,7 @@ void steps_far_beyond_beams(void**) {
 void discs_of_the_size_of_rounding(void**) {
   Random random(5);
   for (size_t n = test_count(1500); n > 0; --n) {
-    const Vec3 far = direction(random) * std::exp2(random.between(0, 30));
+    const Vec3 far = random.direction() * std::exp2(random.between(0, 30));
     const double most = 0x1p-43 * max_magnitude(far);
     std::vector<Beam> beams;
     for (int i = 0; i < 4; ++i) {

@@ -16,13 +16,6 @@ using namespace msq::test;
 
 namespace {
 
-Vec3 direction(Random& random) {
-  for (;;) {
-    const Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
-    if (const double l = length(d); l > 0.1 && l < 1) return d * (1 / l);
-  }
-}
-
 Ref<Beams> make(const std::vector<Beam>& beams, unsigned threads = 2) {
   const Executor executor(threads);
   return Beams::make(source_of(beams), 0, executor, std::make_shared<MemoryBudget>(uint64_t{0}),
@@ -31,7 +24,7 @@ Ref<Beams> make(const std::vector<Beam>& beams, unsigned threads = 2) {
 
 Beam any_beam(Random& random, Vec3 at, double size) {
   Beam beam{
-      at, at + direction(random) * (size * random.unit()), 0, 0, BeamCap::sphere, BeamCap::sphere};
+      at, at + random.direction() * (size * random.unit()), 0, 0, BeamCap::sphere, BeamCap::sphere};
   beam.radius_a = 0.3 * size * random.unit();
   beam.radius_b = random.below(3) ? 0.3 * size * random.unit() : beam.radius_a;
   beam.cap_a = static_cast<BeamCap>(random.below(3));

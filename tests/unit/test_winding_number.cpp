@@ -177,11 +177,6 @@ void test_numbers(void** state) {
   assert_true(compared > test_count(row.points) / 3);
 }
 
-Vec3 some_direction(Random& random) {
-  const Vec3 way{random.normal(), random.normal(), random.normal()};
-  return way * (1 / length(way));
-}
-
 /// Within the reach of a point, away from the caps, it is one number. is_widest: of the widest ball
 /// of which that is proven, where bounds have least room.
 void check_whole_ball(const OpenMesh& mesh, const BoundaryLoops& loops, Vec3 p, double scale,
@@ -194,7 +189,7 @@ void check_whole_ball(const OpenMesh& mesh, const BoundaryLoops& loops, Vec3 p, 
   }
   for (int n = 0; n < (is_widest ? 24 : 4); ++n) {
     const double part = is_widest ? 1 - 1e-9 : n ? random.unit() : 1;
-    const Vec3 q = p + some_direction(random) * (size * part / scale);
+    const Vec3 q = p + random.direction() * (size * part / scale);
     assert_int_equal(mesh.caps().count_beyond(q) + loops.turns(q), whole);
   }
 }
@@ -208,7 +203,7 @@ size_t check_near_views(const OpenMesh& mesh, const BoundaryLoops& loops, Vec3 p
   constexpr size_t count = 2;
   Vec3 points[count];
   Caps::View views[count];
-  for (Vec3& q : points) q = p + some_direction(random) * (size * random.unit());
+  for (Vec3& q : points) q = p + random.direction() * (size * random.unit());
   mesh.caps().find_views(points, count, near, views);
   size_t proven = 0;
   for (size_t n = 0; n < count; ++n) {
