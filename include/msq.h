@@ -27,7 +27,7 @@
  *
  * Definitions. A definition is a struct that begins with struct_size. X_def_init(&def, sizeof def)
  * sets struct_size and all defaults, and writes no byte past the given size. If the struct is
- * larger than the library's, its excess bytes must be 0. Sizes below that of version 0.1 and sizes
+ * larger than the library's, its excess bytes must be 0. Sizes below that of version 0.2 and sizes
  * above 4096 are refused.
  *
  * Reports. A report is a struct that msq fills in. The caller sets its struct_size. msq writes no
@@ -60,7 +60,7 @@
  *
  * Cost. A function whose comment states no cost takes constant time.
  *
- * Every declaration exists since version 0.1 unless its comment says otherwise.
+ * Every declaration exists since version 0.2 unless its comment says otherwise.
  */
 #ifndef MSQ_H
 #define MSQ_H
@@ -1263,7 +1263,7 @@ MSQ_API msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size);
  * distance. With a period or a warp: the struts near a cell are found when the cell is first
  * evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius
  * times the greatest factor above 4 times the smallest cell size; cell sizes that differ by more
- * than 2^20 times; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of
+ * than 2^20 times; library too large; a sampled map of more than 2^24 cells), MEMORY, UNSUPPORTED (both a period and a warp; either of
  * them with a library of several unit cells). */
 MSQ_API msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def,
                                          msq_structure** structure);
@@ -2252,7 +2252,7 @@ typedef struct msq_model_def {
   /** Coarsest first: a shape, then structures. */
   const msq_scale_def* scales;
   /** sizeof(msq_scale_def) of the caller. A multiple of 8. 0 (default): that of version
-   * 0.1. */
+   * 0.2. */
   uint32_t scale_size;
   /** Must be 0. */
   uint32_t reserved;
@@ -2266,11 +2266,11 @@ MSQ_API msq_status msq_model_def_init(msq_model_def* def, size_t size);
  *
  * The skin is the set of points of the shape whose depth is at most the thickness at the point,
  * where the thickness is above 0. Depth is the distance to the boundary of the shape, as in
- * msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the
- * distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of
+ * msq_point_distance. Primitives and meshes have depth; voxel images, host shapes and some shapes made
+ * of shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of
  * the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the
- * origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space),
- * MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the paper has no skin.
+ * origin of a structure's grid), UNSUPPORTED (a skin in a shape without depth:
+ * docs/concepts.md), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the paper has no skin.
  */
 MSQ_API msq_status msq_model_create(msq_context* context, const msq_model_def* def,
                                     msq_model** model);

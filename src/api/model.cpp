@@ -9,8 +9,9 @@ namespace {
 
 constexpr uint32_t max_scales = 64;
 
-/// Sizes of msq_scale_def: in version 0.1, which never changes, and before it had a skin.
-constexpr uint32_t default_scale_size = sizeof(msq_scale_def);
+/// Sizes of msq_scale_def: in version 0.2, which never changes, and before it had a skin.
+constexpr uint32_t default_scale_size =
+    offsetof(msq_scale_def, skin_material) + sizeof(msq_scale_def::skin_material);
 constexpr uint32_t min_scale_size = offsetof(msq_scale_def, skin);
 
 msq_model_def model_defaults() {

@@ -7,7 +7,7 @@ namespace {
 
 constexpr char MODEL_HELP[] =
     "a model file (.json), which has structures of its own, a mesh file (STL, OBJ, PLY, OFF, 3MF, "
-    "AMF), or box:X,Y,Z, a box of that size with a corner at the origin";
+    "AMF, glTF), or box:X,Y,Z, a box of that size with a corner at the origin";
 
 constexpr Option MAIN[] = {
     {"help", 'h', "", Value::NONE, "", "print this text and exit; after a command: its options"},

@@ -1432,7 +1432,7 @@ pub struct msq_model_def {
     pub scale_count: u32,
     /// Coarsest first: a shape, then structures.
     pub scales: *const msq_scale_def,
-    /// sizeof(msq_scale_def) of the caller. A multiple of 8. 0 (default): that of version 0.1.
+    /// sizeof(msq_scale_def) of the caller. A multiple of 8. 0 (default): that of version 0.2.
     pub scale_size: u32,
     /// Must be 0.
     pub reserved: u32,
@@ -2300,7 +2300,7 @@ extern "C" {
     ///
     /// Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell has the struts of the unit cell that cell_choice selects. If the nodes of two unlike neighbouring cells do not match (msq_lattice_faces), struts end at the face.
     ///
-    /// Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. With a period or a warp: the struts near a cell are found when the cell is first evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; cell sizes that differ by more than 2^20 times; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells).
+    /// Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. With a period or a warp: the struts near a cell are found when the cell is first evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; cell sizes that differ by more than 2^20 times; library too large; a sampled map of more than 2^24 cells), MEMORY, UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells).
     pub fn msq_structure_lattice(context: *mut msq_context, def: *const msq_lattice_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.
     ///
@@ -2434,7 +2434,7 @@ extern "C" {
     pub fn msq_model_def_init(def: *mut msq_model_def, size: usize) -> msq_status;
     /// Creates a model: the intersection of the shape with every structure. Where a scale leaves a skin, the union of structure and skin takes the place of the structure. def must not be NULL.
     ///
-    /// The skin is the set of points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the paper has no skin.
+    /// The skin is the set of points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images, host shapes and some shapes made of shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a shape without depth: docs/concepts.md), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the paper has no skin.
     pub fn msq_model_create(context: *mut msq_context, def: *const msq_model_def, model: *mut *mut msq_model) -> msq_status;
     /// Creates a model of several regions, for example the parts of a plate and the modifier volumes in them. regions: count models, 1 to 4096; each has its own shape, scales, skins and materials.
     ///
