@@ -815,7 +815,9 @@ MSQ_API msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_
  * direction, and the shape has no depth, so no scale can leave a skin in it: transform the vertices
  * of a mesh instead. Bounds enclose the placed bounding box of the original.
  *
- * Cost: constant. Points and rays cost what they cost in the original. Layers evaluate the distance
+ * Cost: constant. Points and rays cost what they cost in the original. Layers of a closed mesh cost
+ * little more than those of the original; the first one places a copy of its vertices and
+ * triangles, which counts against the memory limit. Layers of other shapes evaluate the distance
  * at a few samples per sample of the outline, which costs tens of times as much as an unplaced
  * mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition
  * above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more

@@ -3,27 +3,15 @@
 
 #include <cstdlib>
 
-#include "base/borrowed.h"
 #include "base/hash_input.h"
 #include "base/status.h"
+#include "shape/crossed_rows.h"
 #include "shape/mesh_diagnosis.h"
 #include "shape/self_intersections.h"
-#include "shape/triangle_rows.h"
 
 namespace msq {
 
 namespace {
-
-/// Memory for the rows of a layer.
-struct LayerWorkspace {
-  std::vector<RowCrossing> crossings, sorted;
-  std::vector<uint32_t> row_ends;
-
-  size_t bytes() const {
-    return (crossings.capacity() + sorted.capacity()) * sizeof(RowCrossing) +
-           row_ends.capacity() * sizeof(uint32_t);
-  }
-};
 
 uint64_t bytes_of(const TriangleSoup& soup) {
   return soup.vertices.capacity() * sizeof(Vec3) + soup.triangles.capacity() * sizeof(Triangle);
@@ -95,34 +83,9 @@ uint64_t Mesh::self_intersections(const Job* job) const {
 
 void Mesh::fill_rows(const RowBlock& block) const {
   if (open_) return fill_open_rows(block);
-  for (uint64_t k = block.z0; k < block.z1; ++k) fill_layer(block, k);
-}
-
-void Mesh::fill_layer(const RowBlock& block, uint64_t k) const {
-  const SampleGrid& grid = *block.grid;
-  const Box3& box = facts_.bounds;
-  const double z = grid.z(k);
-  if (z < box.min.z || z > box.max.z) return;
-
-  const Borrowed<LayerWorkspace> workspace;
-  auto& [crossings, sorted, row_ends] = *workspace;
-  crossings.clear();
-  add_crossings(soup_, sheets_.at(box.min.y, z), block, k, crossings);
-  sort_by_row(crossings, block.rows(), row_ends, sorted);
-
-  const uint64_t first = grid.first_x_from(box.min.x);
-  const uint64_t end = grid.first_x_from<true>(box.max.x);
-  for (uint64_t r = 0; r < block.rows(); ++r) {
-    const double y = grid.y(block.y0 + r);
-    if (y < box.min.y || y > box.max.y) continue;
-    RowCrossing* const row_begin = sorted.data() + (r ? row_ends[r - 1] : 0);
-    RowCrossing* const row_end = sorted.data() + row_ends[r];
-    if (row_begin == row_end) continue;
-    std::sort(row_begin, row_end,
-              [](const RowCrossing& a, const RowCrossing& b) { return a.x < b.x; });
-    fill_between(row_begin, row_end, grid, first, end, block.row(block.y0 + r, k),
-                 [this](int64_t winding) { return solid(winding); });
-  }
+  for (uint64_t k = block.z0; k < block.z1; ++k)
+    fill_crossed_rows(soup_, sheets_, facts_.bounds, block, k,
+                      [this](int64_t winding) { return solid(winding); });
 }
 
 void Mesh::describe(HashInput& input) const {

@@ -55,6 +55,14 @@ class Mesh final : public Shape {
   Vec3 normal(const Ray& ray, double t) const override;
   uint64_t self_intersections(const Job* job) const override;
 
+  /// Whether points of this winding number are inside; of an open mesh its holes may correct it.
+  bool solid(int64_t winding) const {
+    return rule_ == WindingRule::even_odd   ? (winding & 1) != 0
+           : rule_ == WindingRule::positive ? winding > 0
+                                            : winding != 0;
+  }
+  const Mesh* mesh() const override { return this; }
+  const std::shared_ptr<MemoryBudget>& budget() const { return budget_; }
   const std::vector<Vec3>& vertices() const { return soup_.vertices; }
   const std::vector<Triangle>& triangles() const { return soup_.triangles; }
 
@@ -67,12 +75,6 @@ class Mesh final : public Shape {
   void describe(HashInput& input) const override;
   const MeshBoundary& boundary(const Job* job = nullptr) const;
   const DecidedCells& cells(const Job* job) const;
-  bool solid(int64_t winding) const {
-    return rule_ == WindingRule::even_odd   ? (winding & 1) != 0
-           : rule_ == WindingRule::positive ? winding > 0
-                                            : winding != 0;
-  }
-  void fill_layer(const RowBlock& block, uint64_t k) const;
   void fill_open_rows(const RowBlock& block) const;
   double open_distance_bound(Vec3 p) const;
   bool find_along(const Ray& ray, double from, double to, bool wanted, double& t,

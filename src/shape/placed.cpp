@@ -4,9 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "shape/row_boxes.h"
-
 #include "base/hash_input.h"
+#include "shape/row_boxes.h"
 
 namespace msq {
 
@@ -139,7 +138,21 @@ Vec3 PlacedShape::normal(const Ray& ray, double t) const {
   return is_finite(normal) ? normal : ray.direction * -1.0;
 }
 
+// The roundings of a sample's place and of a vertex', and those of crossings in both frames. What
+// the sums of a vertex' place lose: as in Placement::to_placed().
+PlacedRows::Map PlacedShape::map_of_rows() const {
+  const Box3 &placed = bounds(), &original = original_->bounds();
+  const double magnitude = max_magnitude(placed.min) + max_magnitude(placed.max),
+               of_original = max_magnitude(original.min) + max_magnitude(original.max);
+  const double error = 3 * placement_.rounding(placed) + 0x1p-49 * magnitude +
+                       PlacedRows::crossing_error(magnitude) +
+                       placement_.max_growth() * PlacedRows::crossing_error(of_original);
+  return {[this](Vec3 v) { return placement_.to_placed(v); }, placement_.determinant() < 0, placed,
+          error};
+}
+
 void PlacedShape::fill_rows(const RowBlock& block) const {
+  if (PlacedRows::fill(rows_, *original_, map_of_rows(), block, *this)) return;
   RowBoxes(block).fill(
       bounds(), [this](Vec3 p) { return distance(p); },
       [this](const Vec3* points, size_t count, uint8_t* inside) {

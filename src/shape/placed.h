@@ -3,7 +3,9 @@
 // where the original holds the point that the stored inverse maps it to (placement.h).
 #pragma once
 
+#include "base/lazy.h"
 #include "shape/boundary_search.h"
+#include "shape/placed_rows.h"
 #include "shape/placement.h"
 #include "shape/shape.h"
 
@@ -57,8 +59,11 @@ class PlacedShape final : public Shape, private BoundarySearch {
   bool follow(const Ray& ray, double from, double to, double first, double& t,
               const Job* job) const;
 
+  PlacedRows::Map map_of_rows() const;
+
   Ref<const Shape> original_;
   const Placement placement_;
+  Lazy<PlacedRows> rows_;  // of closed meshes
 };
 
 }  // namespace msq

@@ -30,6 +30,7 @@ struct ShapeFacts {
 };
 
 class BoundarySearch;
+class Mesh;
 
 class Shape : public Described {
  public:
@@ -109,6 +110,8 @@ class Shape : public Described {
                                max_magnitude(bounds().max)));
   }
 
+  /// This, if it is a mesh.
+  virtual const Mesh* mesh() const { return nullptr; }
   /// Number of pairs of triangles that meet where they should not; none where there are no
   /// triangles.
   virtual uint64_t self_intersections(const Job*) const { return 0; }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/hash_input.h"
+#include "shape/placed_rows.h"
 #include "shape/row_boxes.h"
 #include "slice/frame_rows.h"
 
@@ -67,12 +68,7 @@ class FramedShape final : public Shape {
     return shape_->depth_error() + frame_.rounding(bounds().min) + frame_.rounding(bounds().max);
   }
   void fill_rows(const RowBlock& block) const override {
-    if (model_axes_[0] < 0)
-      return RowBoxes(block).fill(
-          bounds(), [this](Vec3 p) { return distance(p); },
-          [this](const Vec3* points, size_t count, uint8_t* inside) {
-            find_inside(points, count, inside);
-          });
+    if (model_axes_[0] < 0) return fill_turned_rows(block);
     FrameRows(block, model_axes_).for_each_part([this](const RowBlock& turned) {
       RowBlock layer = turned;
       for (uint64_t k = turned.z0; k < turned.z1; ++k) {
@@ -96,9 +92,31 @@ class FramedShape final : public Shape {
   }
 
  private:
+  void fill_turned_rows(const RowBlock& block) const {
+    if (PlacedRows::fill(rows_, *shape_, map_of_rows(), block, *this)) return;
+    RowBoxes(block).fill(
+        bounds(), [this](Vec3 p) { return distance(p); },
+        [this](const Vec3* points, size_t count, uint8_t* inside) {
+          find_inside(points, count, inside);
+        });
+  }
+  /// Points and vertices are rounded as LayerFrame::rounding() says, and axes are orthonormal
+  /// except for rounding.
+  PlacedRows::Map map_of_rows() const {
+    const Box3& of_model = shape_->bounds();
+    const double here = max_magnitude(bounds().min) + max_magnitude(bounds().max),
+                 there = max_magnitude(of_model.min) + max_magnitude(of_model.max);
+    const double error = 0x1p-46 * (here + there + max_magnitude(frame_.origin)) +
+                         PlacedRows::crossing_error(here) + PlacedRows::crossing_error(there);
+    const auto& [u, v, w] = frame_.axes;
+    return {[this](Vec3 p) { return frame_.from_model(p); }, dot(msq::cross(u, v), w) < 0, bounds(),
+            error};
+  }
+
   Ref<const Shape> shape_;
   const LayerFrame frame_;
   const std::array<int, 3> model_axes_;
+  Lazy<PlacedRows> rows_;
 };
 
 /// The grid of a structure, by whose cells sets of points are grouped.
