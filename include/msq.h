@@ -844,7 +844,8 @@ enum msq_boolean_operation {
  * them: intersections and differences of shapes with depth and exact distances, and unions of
  * shapes with depth whose bounding boxes do not meet. Volume and area are NaN. Cost: the sum of the
  * shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet),
- * LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY. */
+ * LIMIT (as msq_shape_placed; more than 4096 shapes in all, counted with repetition), UNSUPPORTED
+ * (all space), MEMORY. */
 MSQ_API msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes,
                                      uint64_t count, msq_shape** shape);
 
@@ -1097,9 +1098,10 @@ MSQ_API msq_status msq_shape_distance_field_def_init(msq_shape_distance_field_de
  * it, on the threads of the context, in single precision. Outside, the field has the value of the
  * nearest point of the border. The error inside is below step * sqrt(3), and far smaller away from
  * edges and medial surfaces. Cost: without a step, that of msq_point_distance per point and strut
- * (microseconds); with a step, that of msq_field_grid with 4-byte values. Errors: ARGUMENT (also
- * more than 2^20 steps along an axis), LIMIT (memory limit of the context), HOST, CANCELLED,
- * MEMORY. */
+ * (microseconds), and the tree of a mesh's triangles, which this call builds; with a step, that of
+ * msq_field_grid with 4-byte values. Errors: ARGUMENT (also more than 2^20 steps along an axis, and
+ * distances that exceed a float), LIMIT (memory limit of the context), UNSUPPORTED (all space),
+ * HOST, CANCELLED, MEMORY. */
 MSQ_API msq_status msq_field_shape_distance(msq_context* context,
                                             const msq_shape_distance_field_def* def,
                                             msq_field** field, msq_job* job);
@@ -2127,7 +2129,7 @@ MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
  * beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells
  * around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone,
  * and structures made of others, except unions of those with struts: they have no struts), LIMIT (a
- * box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF
+ * box beyond 2^24 cells from the origin of the grid, or of 2^64 blocks of cells), HOST, CANCELLED, MEMORY. Source: 3MF
  * Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991. */
 MSQ_API msq_status msq_structure_struts(msq_context* context, const msq_structure* structure,
                                         const msq_struts_def* def, msq_struts_fn callback,
@@ -2647,7 +2649,8 @@ typedef struct msq_calibration_report {
  * and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds
  * without onset: lattices with two or more unit cells, lattices of plates and struts, foams of
  * struts and walls, host structures and functions, beams, and structures made of others, except
- * unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY. */
+ * unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction; points 2^24 cells or
+ * more from the origin of a grid, or beyond 1e75; memory), MEMORY. */
 MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
                                            const msq_points_def* sample, double target,
                                            double* parameters, double* fractions,
@@ -2844,7 +2847,8 @@ MSQ_API msq_status msq_slicer_def_init(msq_slicer_def* def, size_t size);
 /** Plans the layers of a model, normal to z or in a frame. Computes nothing yet. def must not be
  * NULL. Errors: ARGUMENT (also pixels or layers that rounding makes coincide, and a window outside
  * the plan), LIMIT (more than 2^31 - 1 layers, or pixels along a side, or 2^63 pixels in total or
- * in the window), MEMORY. */
+ * in the window), UNSUPPORTED (ONSET of a model of several regions, or of a structure without
+ * onset), MEMORY. */
 MSQ_API msq_status msq_slicer_create(const msq_model* model, const msq_slicer_def* def,
                                      msq_slicer** slicer);
 /** Adds a reference. */
@@ -3214,7 +3218,8 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam or of
  * plates; 1 us per square that a function's line crosses, 20 ns per other square; of waves 11 ns
  * per wave and square that a line crosses. Errors: ARGUMENT (also, with its index: a ring of fewer
- * than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED,
+ * than 3 points or whose points are on one line; a pair_distance or corner_distance above 2^54
+ * units), UNSUPPORTED (no thin walls), LIMIT, CANCELLED,
  * HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes",
  * 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973. */
 MSQ_API msq_status msq_fill_lines(msq_context* context, const msq_structure* structure,
@@ -3263,7 +3268,8 @@ MSQ_API msq_status msq_fill_info(const msq_fill* fill, msq_fill_report* report);
  * Cost: up to 0.5 s for a foam, 0.8 s and 0.017 s per wave for waves. Errors: ARGUMENT, UNSUPPORTED
  * (a structure without thin walls; a structure whose lines are denser in some places, by a period,
  * a warp, or a field of density, vent_radius or the level of a network; a structure made of other
- * structures), LIMIT (a structure without lines), CANCELLED, HOST, MEMORY. */
+ * structures), LIMIT (a structure without lines; cells that would be below 1e-75 or above 1e75),
+ * CANCELLED, HOST, MEMORY. */
 MSQ_API msq_status msq_fill_calibrate(msq_context* context, const msq_structure* structure,
                                       double line_width, double density, double cell_size[3],
                                       msq_job* job);

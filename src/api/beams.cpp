@@ -288,6 +288,7 @@ msq_status msq_structure_beams(msq_context* context, const msq_beams_def* def,
                                msq_structure** structure, msq_job* job) {
   return guard([&] {
     const Context& owner = object(context, "context");
+    const Ref<const Context> keep(&owner);  // memory may be short: it gives way until the end
     require(structure, "structure");
     const msq_beams_def known = read_def(def, beams_defaults(), "def");
     Job* work = job ? &object(job, "job") : nullptr;

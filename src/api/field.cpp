@@ -145,6 +145,7 @@ msq_status msq_field_shape_distance(msq_context* context, const msq_shape_distan
                                     msq_field** field, msq_job* job) {
   return guard([&] {
     const Context& owner = object(context, "context");
+    const Ref<const Context> keep(&owner);  // callbacks may release the host's last reference
     require(field, "field");
     const msq_shape_distance_field_def known = read_def(def, msq_shape_distance_field_def{}, "def");
     require_reserved(known.reserved, "reserved");
@@ -157,11 +158,13 @@ msq_status msq_field_shape_distance(msq_context* context, const msq_shape_distan
     Job* work = job ? &object(job, "job") : nullptr;
     JobScope scope(work);
     Ref<const Field> distance;
-    if (known.step > 0)
+    if (known.step > 0) {
       distance = make_ref<GridField>(sample_distance(
           *shape, known.step, owner.executor_for(shape->is_concurrent()), owner.budget, work));
-    else
+    } else {
+      shape->prepare_distance(work);  // queries are not to exceed the memory limit half-way
       distance = make_ref<ShapeDistanceField>(shape);
+    }
     *field =
         defined_handle<msq_field>(make_ref<MapField>(std::move(distance), std::move(curve)), known);
     scope.done();

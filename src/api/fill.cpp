@@ -98,6 +98,15 @@ double smallest_cell_size(const Structure& structure) {
   return size;
 }
 
+/// A distance between lines or points, at most as wide as polygons are.
+double read_distance(double distance, double scale, const char* name) {
+  constexpr double most = 0x1p54;
+  if (!(require_not_negative(distance, name) / scale <= most))
+    fail(Status::argument, "%s is %g, %g units of the coordinates; the limit is %g", name, distance,
+         distance / scale, most);
+  return distance;
+}
+
 FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
   FillPlan plan;
   const int32_t type = require_range(def.coordinate_type, MSQ_INT32, MSQ_INT64, "coordinate_type");
@@ -113,8 +122,8 @@ FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
   // Lines are rounded to the coordinates.
   plan.tolerance = std::max(plan.tolerance, 0.5 * plan.scale);
   plan.min_length = require_not_negative(def.min_length, "min_length");
-  plan.pair_distance = require_not_negative(def.pair_distance, "pair_distance");
-  plan.corner_distance = require_not_negative(def.corner_distance, "corner_distance");
+  plan.pair_distance = read_distance(def.pair_distance, plan.scale, "pair_distance");
+  plan.corner_distance = read_distance(def.corner_distance, plan.scale, "corner_distance");
   return plan;
 }
 
@@ -180,8 +189,11 @@ msq_status msq_fill_calibrate(msq_context* context, const msq_structure* structu
     JobScope scope(job ? &object(job, "job") : nullptr);
     WorkingMemory working(*owner.budget, what_of_lines);
     const double factor = mean_line_density(known) * line_width / density;
+    const Vec3 sizes = known.neighbourhood().cell_size * factor;
+    if (!(min_component(sizes) >= 1e-75 && max_component(sizes) <= 1e75))
+      fail(Status::limit, "cells would be from %g to %g wide; they must be from 1e-75 to 1e75",
+           min_component(sizes), max_component(sizes));
     scope.done();
-    for (int axis = 0; axis < 3; ++axis)
-      cell_size[axis] = known.neighbourhood().cell_size[axis] * factor;
+    for (int axis = 0; axis < 3; ++axis) cell_size[axis] = sizes[axis];
   });
 }

@@ -57,6 +57,13 @@ msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes, 
         shapes, count, "shapes", [](const Shape& member, uint64_t i) -> const Shape& {
           return require_bounded(member, ("shapes[" + std::to_string(i) + "]").c_str());
         });
+    // Counted before it is made: each step of a chain of unions of a shape with itself doubles it.
+    uint64_t terms = 0;
+    for (const Ref<const Shape>& member : members) terms += member->terms();
+    if (terms > max_members)
+      fail(Status::limit,
+           "the shape would be made of %llu shapes, counted with repetition; the limit is %llu",
+           static_cast<unsigned long long>(terms), static_cast<unsigned long long>(max_members));
     *shape = made_of_shapes(make_ref<BooleanShape>(known, std::move(members)),
                             BooleanDef{operation, shapes, count});
   });

@@ -161,6 +161,7 @@ msq_status msq_structure_calibrate(msq_context* context, const msq_structure* st
     Context& owner = object(context, "context");
     const Structure& known = object(structure, "structure");
     const Ref<const Structure> keep(&known);
+    const Ref<const Context> keep_owner(&owner);
     if (!known.has_onset())
       fail(Status::unsupported,
            "the structure's kind has no onset, so no curve of it is known; of structures made of "
@@ -183,6 +184,7 @@ msq_status msq_structure_calibrate(msq_context* context, const msq_structure* st
       found.struct_size = report->struct_size;
       check_struct_size<msq_calibration_report>(report->struct_size, "report");
     }
+    require_reach(known, owner.executor, points, 0);
     Job* work = job ? &object(job, "job") : nullptr;
     JobScope scope(work);
     const Executor& executor = owner.executor_for(known.is_concurrent());

@@ -14,7 +14,9 @@ msq_status msq_set_onset(msq_context* context, const msq_structure* structure,
   return guard([&] {
     Context& owner = object(context, "context");
     const Structure& known = object(structure, "structure");
-    const Ref<const Structure> keep(&known);  // callbacks may release the host's last reference
+    // Callbacks may release the host's last references.
+    const Ref<const Structure> keep(&known);
+    const Ref<const Context> keep_owner(&owner);
     if (!known.has_onset())
       fail(Status::unsupported,
            "the structure's kind has no onset; of structures made of others, unions have one whose "
@@ -48,6 +50,7 @@ msq_status msq_field_evaluate(msq_context* context, const msq_field* field,
     Context& owner = object(context, "context");
     const Field& known = object(field, "field");
     const Ref<const Field> keep(&known);
+    const Ref<const Context> keep_owner(&owner);
     const std::unique_ptr<PointSet> set = read_points(points);
     require_count(value_count, "value_count", set->count());
     if (value_count > 0) require(values, "values");

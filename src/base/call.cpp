@@ -26,7 +26,8 @@ const Job* current_job() noexcept {
 CallScope::CallScope() noexcept : host_(FloatState::read()) {
   ThreadCall& call = thread_call;
   outer_host_ = std::exchange(call.host, &host_);
-  outer_job_ = std::exchange(call.job, nullptr);
+  outer_job_ = call.job;
+  if (!outer_host_) call.job = nullptr;
   host_.enter_own();
 }
 

@@ -26,7 +26,8 @@ class Job;
 const Job* current_job() noexcept;
 
 /// A call of the C ABI. It computes in msq's floating-point state and restores the host's at the
-/// end. It has no job at first, also within a callback of a call that has one.
+/// end. It has no job at first, also within a callback of a call that has one. A call that msq
+/// makes itself, from within another one, goes on with the other one's.
 class CallScope {
  public:
   CallScope() noexcept;

@@ -17,15 +17,18 @@ class MemoryBudget {
  public:
   explicit MemoryBudget(uint64_t limit) : limit_(limit) {}
 
-  /// Sets the function that gives bytes back when take() needs them. It is called with no lock
-  /// held, and returns whether it gave any back.
-  void set_reserve(std::function<bool()> give_way) { give_way_ = std::move(give_way); }
+  /// Sets the function that gives bytes back when take() needs them. It is called by one thread at
+  /// a time, and returns whether it gave any back. After this returns, the one before is not used.
+  void set_reserve(std::function<bool()> give_way) {
+    const std::lock_guard lock(give_way_mutex_);
+    give_way_ = std::move(give_way);
+  }
 
   /// Throws Error(limit), which names `what`, if the bytes exceed the limit even after the reserve
   /// gave bytes back.
   void take(uint64_t bytes, const char* what) {
     while (!try_take(bytes))
-      if (!give_way_ || !give_way_())
+      if (!give_back_any())
         fail(
             Status::limit,
             "%s of %llu bytes, with %llu bytes held, would pass the context's memory_limit of %llu",
@@ -56,7 +59,13 @@ class MemoryBudget {
   }
 
  private:
+  bool give_back_any() {
+    const std::lock_guard lock(give_way_mutex_);
+    return give_way_ && give_way_();
+  }
+
   const uint64_t limit_;
+  std::mutex give_way_mutex_;
   std::function<bool()> give_way_;
   mutable std::mutex mutex_;
   uint64_t held_ = 0, peak_ = 0;

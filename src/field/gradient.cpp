@@ -11,7 +11,7 @@ GradientField::GradientField(Vec3 from, double from_value, Vec3 to, double to_va
       to_value_(to_value) {}
 
 double GradientField::value(double t) const {
-  if (t <= 0) return from_value_;
+  if (!(t > 0)) return from_value_;  // also where products overflow to infinities that cancel
   if (t >= 1) return to_value_;
   const double v = from_value_ + t * (to_value_ - from_value_);
   return std::clamp(v, std::min(from_value_, to_value_), std::max(from_value_, to_value_));

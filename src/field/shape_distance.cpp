@@ -34,6 +34,11 @@ double ShapeDistanceField::lipschitz() const {
 Image sample_distance(const Shape& shape, double step, const Executor& executor,
                       const std::shared_ptr<MemoryBudget>& budget, Job* job) {
   const Box3& box = shape.bounds();
+  const double farthest = length(box.extent()) + 4 * step;
+  if (!(farthest <= std::numeric_limits<float>::max()))
+    fail(Status::argument,
+         "a step of %g about a shape %g long makes distances up to %g; the limit is %g", step,
+         length(box.extent()), farthest, double{std::numeric_limits<float>::max()});
   Image::Source source{nullptr, Image::Type::float32, {}, 0, 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double samples = std::ceil(box.extent()[axis] / step) + 3;

@@ -218,6 +218,11 @@ void Model::prepare_skins(const Scales& resolved, const Job* job) const {
     if (!scale->skin.is_none()) return shape_->prepare_distance(job);
 }
 
+void Model::prepare_rows(const Job* job) const {
+  for (const Ref<const Model>& region : regions_) region->prepare_rows(job);
+  if (regions_.empty()) shape_->prepare_rows(job);
+}
+
 void Model::describe(HashInput& input) const {
   if (!regions_.empty()) {
     input.kind("model of regions");

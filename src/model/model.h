@@ -91,6 +91,8 @@ class Model final : public Described {
   /// Builds what answers of these scales need of the shape's depth, if anything. What else they ask
   /// would find out on a worker, with answers written already.
   void prepare_skins(const Scales& resolved, const Job* job) const;
+  /// Builds what rows of the shape need.
+  void prepare_rows(const Job* job) const;
 
  private:
   void describe(HashInput& input) const override;

@@ -312,10 +312,23 @@ PrintabilityCounts find_doubtful(const Slicer& slicer, const PrintabilityPlan& p
                                  Job* job) {
   const Ref<const Slicer> bits =
       make_ref<Slicer>(Ref<const Model>(&slicer.model()), plan_of_bits(slicer));
+  JobScope scope(job);
+  // The run is a part of the call, and the host is still to be called after it.
+  const Ref<Job> of_run = job ? make_ref<Job>(job) : Ref<Job>();
+  const uint64_t count = bits->grid().nz;
   Inspection inspection(*bits, plan, take);
   bits->run(
-      0, bits->grid().nz, [&](const Layer& layer) { inspection.add_layer(layer); }, job);
-  return inspection.end();
+      0, count,
+      [&](const Layer& layer) {
+        inspection.add_layer(layer);
+        if (job)
+          job->set_progress(static_cast<double>(layer.index + 1) / static_cast<double>(count + 1));
+      },
+      of_run.get());
+  if (job) job->counts().add(of_run->counts());
+  const PrintabilityCounts counts = inspection.end();
+  scope.done();
+  return counts;
 }
 
 }  // namespace msq

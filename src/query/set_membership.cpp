@@ -243,12 +243,14 @@ void set_membership(const Model& model, const Scales& resolved, const PointSet& 
   for (const Scale* scale : resolved) gains |= scale->structure->gains_by_groups();
   if (points.count() == 0) return;
   model.prepare_skins(resolved, job);
-  if (const SampleGrid* grid = points.as_grid(); grid && plan.method != QueryMethod::point)
+  if (const SampleGrid* grid = points.as_grid(); grid && plan.method != QueryMethod::point) {
+    model.prepare_rows(job);  // before the first result is written
     grid_membership(model, resolved, *grid, inside, job);
-  else if (gains && !points.is_compact() && plan.method != QueryMethod::point)
+  } else if (gains && !points.is_compact() && plan.method != QueryMethod::point) {
     ask_by_groups(model, resolved, points, plan, inside, job);
-  else
+  } else {
     ask_by_parts(model, resolved, points, plan, inside, job);
+  }
 }
 
 void set_regions(const Model& model, const PointSet& points, int32_t* regions, Job* job) {

@@ -19,6 +19,7 @@ BooleanShape::BooleanShape(Operation operation, std::vector<Ref<const Shape>> me
     is_concurrent_ = is_concurrent_ && member->is_concurrent();
     is_steady_ = is_steady_ && member->has_steady_distance();
     nesting_ = std::max(nesting_, 1 + member->nesting());
+    terms_ += member->terms();
     min_tolerance_ = std::max(min_tolerance_, member->ray_tolerance());
   }
   find_bounds();
@@ -107,6 +108,10 @@ void BooleanShape::find_inside(const Vec3* points, size_t count, uint8_t* inside
 
 void BooleanShape::prepare_distance(const Job* job) const {
   for (const Ref<const Shape>& member : members_) member->prepare_distance(job);
+}
+
+void BooleanShape::prepare_rows(const Job* job) const {
+  for (const Ref<const Shape>& member : members_) member->prepare_rows(job);
 }
 
 // A ball in which no member changes its answer, as far as that decides: the union's signed distance

@@ -26,6 +26,7 @@ class BooleanShape final : public Shape {
   bool is_exact_outside() const override { return is_exact_outside_; }
   bool is_exact_inside() const override { return is_exact_inside_; }
   void prepare_distance(const Job* job) const override;
+  void prepare_rows(const Job* job) const override;
   /// Intersections and differences know it if their members do; unions, if in addition no two
   /// members have bounds that meet.
   bool knows_depth() const override { return knows_depth_; }
@@ -37,6 +38,7 @@ class BooleanShape final : public Shape {
   Vec3 normal(const Ray& ray, double t) const override;
   void fill_rows(const RowBlock& block) const override;
   unsigned nesting() const override { return nesting_; }
+  uint64_t terms() const override { return terms_; }
 
  protected:
   double distance_bound(Vec3 p) const override;
@@ -59,6 +61,7 @@ class BooleanShape final : public Shape {
   bool is_concurrent_ = true, is_steady_ = true, knows_depth_ = true;
   bool is_exact_outside_ = true, is_exact_inside_ = true;
   unsigned nesting_ = 0;
+  uint64_t terms_ = 0;
 };
 
 }  // namespace msq

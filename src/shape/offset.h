@@ -29,6 +29,7 @@ class OffsetShape final : public Shape {
   double min_ray_step() const override { return ray_tolerance(); }
   void fill_rows(const RowBlock& block) const override;
   unsigned nesting() const override { return 1 + original_->nesting(); }
+  uint64_t terms() const override { return original_->terms(); }
 
  protected:
   double distance_bound(Vec3 p) const override;

@@ -151,6 +151,10 @@ PlacedRows::Map PlacedShape::map_of_rows() const {
           error};
 }
 
+void PlacedShape::prepare_rows(const Job* job) const {
+  if (!PlacedRows::prepare(rows_, *original_, map_of_rows(), job)) prepare_distance(job);
+}
+
 void PlacedShape::fill_rows(const RowBlock& block) const {
   if (PlacedRows::fill(rows_, *original_, map_of_rows(), block, *this)) return;
   RowBoxes(block).fill(

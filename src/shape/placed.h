@@ -28,6 +28,7 @@ class PlacedShape final : public Shape, private BoundarySearch {
     return placement_.is_similarity() && original_->is_exact_inside();
   }
   void prepare_distance(const Job* job) const override { original_->prepare_distance(job); }
+  void prepare_rows(const Job* job) const override;
   /// The depth of stretched shapes is not known: their distance is a bound.
   bool knows_depth() const override {
     return placement_.is_similarity() && original_->knows_depth();
@@ -46,6 +47,7 @@ class PlacedShape final : public Shape, private BoundarySearch {
   }
   void fill_rows(const RowBlock& block) const override;
   unsigned nesting() const override { return 1 + original_->nesting(); }
+  uint64_t terms() const override { return original_->terms(); }
 
  protected:
   /// Exact, except for rounding, if the original's is and all lengths grow alike; otherwise at

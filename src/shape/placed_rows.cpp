@@ -97,17 +97,22 @@ class PlacedRows::Near {
   std::vector<uint8_t> inside_;
 };
 
-bool PlacedRows::fill(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
-                      const RowBlock& block, const Shape& definition) {
+const PlacedRows* PlacedRows::find(const Lazy<PlacedRows>& rows, const Shape& original,
+                                   const Map& map, const Job* job) {
   // So a layer lies in two neighbouring bins at most.
   constexpr double part = 0x1p-20;
   const Mesh* const mesh = original.mesh();
   const Vec3 size = map.bounds.extent();
   if (!mesh || !mesh->facts().closed || !(map.error <= part * std::min({size.x, size.y, size.z})))
-    return false;
-  rows.get([&] { return std::make_unique<const PlacedRows>(*mesh, map, current_job()); })
-      .fill(block, definition);
-  return true;
+    return nullptr;
+  return &rows.get([&] { return std::make_unique<const PlacedRows>(*mesh, map, job); });
+}
+
+bool PlacedRows::fill(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
+                      const RowBlock& block, const Shape& definition) {
+  const PlacedRows* const found = find(rows, original, map, current_job());
+  if (found) found->fill(block, definition);
+  return found;
 }
 
 PlacedRows::PlacedRows(const Mesh& mesh, const Map& map, const Job* job)

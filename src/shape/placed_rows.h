@@ -40,6 +40,11 @@ class PlacedRows {
   /// rows: made at first use. definition: the placed shape.
   static bool fill(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
                    const RowBlock& block, const Shape& definition);
+  /// The same, but only makes them.
+  static bool prepare(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
+                      const Job* job) {
+    return find(rows, original, map, job) != nullptr;
+  }
 
   /// The mesh must live as long. Throws Error(limit) if its budget is exceeded, Error(cancelled) if
   /// the job, which may be null, is cancelled.
@@ -50,6 +55,8 @@ class PlacedRows {
 
  private:
   class Near;
+  static const PlacedRows* find(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
+                                const Job* job);
   void fill(const RowBlock& block, const Shape& definition) const;
   void find_near(const RowBlock& block, uint64_t k, Near& near) const;
 

@@ -62,9 +62,13 @@ class Shape : public Described {
   virtual bool is_exact_inside() const { return false; }
   /// How many shapes made of other shapes are within each other.
   virtual unsigned nesting() const { return 0; }
+  /// How many shapes it is made of, counted with repetition.
+  virtual uint64_t terms() const { return 1; }
   /// Builds what distance() needs, if anything; otherwise its first call does, or throws what this
   /// throws. Throws Error(cancelled) where the job, which may be null, is cancelled.
   virtual void prepare_distance(const Job*) const {}
+  /// The same for what fill_rows() needs.
+  virtual void prepare_rows(const Job*) const {}
 
   /// How deep a point of the shape lies under the boundary, or under the part of it that skins
   /// follow: no less than -distance(p). Default: that.

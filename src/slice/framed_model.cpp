@@ -60,7 +60,12 @@ class FramedShape final : public Shape {
   }
   bool is_concurrent() const override { return shape_->is_concurrent(); }
   unsigned nesting() const override { return shape_->nesting(); }
+  uint64_t terms() const override { return shape_->terms(); }
   void prepare_distance(const Job* job) const override { shape_->prepare_distance(job); }
+  void prepare_rows(const Job* job) const override {
+    if (model_axes_[0] >= 0) return shape_->prepare_rows(job);
+    if (!PlacedRows::prepare(rows_, *shape_, map_of_rows(), job)) prepare_distance(job);
+  }
   double depth(Vec3 p) const override { return shape_->depth(frame_.to_model(p)); }
   double depth(Vec3 p, double) const override { return depth(p); }
   bool knows_depth() const override { return shape_->knows_depth(); }

@@ -479,6 +479,14 @@ static void callbacks_stop_the_call(void** state) {
   assert_int_equal(msq_error_host_code(), -11);
   assert_memory_equal(&report, &before, sizeof report);
   assert_ok(msq_job_create(&job));
+  { /* what reaches the last layer is told after it */
+    msq_shape* apart[2] = {box_of(context, 0, 0, 0, 8, 8, 8), box_of(context, 9, 0, 0, 12, 8, 8)};
+    msq_slicer* of_two = slicer_of(context, join(MSQ_BOOLEAN_UNION, apart, 2));
+    const msq_printability_def loose = printability_def(MSQ_FINDING_LOOSE, 0);
+    assert_status(msq_printability(of_two, &loose, take_findings, &list, &report, job), MSQ_E_HOST);
+    assert_true(progress_of(job) < 1);
+    msq_slicer_release(of_two);
+  }
   assert_ok(msq_printability(slicer, NULL, NULL, NULL, &report, job)); /* no list */
   assert_int_equal(report.void_count, 1);
   assert_true(progress_of(job) == 1);

@@ -58,6 +58,8 @@ static void fill_lines(void** state) {
     wrong_number(table, &def->origin[1], "origin");
     wrong_number(table, &def->z, "z is");
     wrong_number(table, &def->tolerance, "tolerance");
+    WRONG(ARGUMENT, "pair_distance is 1.7e+308|1.80144e+16", def->pair_distance = 1.7e308);
+    WRONG(ARGUMENT, "corner_distance is 1e+20|1.80144e+16", def->corner_distance = 1e20);
     wrong_number(table, &def->min_length, "min_length");
     wrong_number(table, &def->pair_distance, "pair_distance");
     wrong_number(table, &def->corner_distance, "corner_distance");

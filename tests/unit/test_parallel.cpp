@@ -217,6 +217,24 @@ void test_the_call_on_threads_of_the_host(void**) {
   }
 }
 
+// A call that msq makes itself has the job of the call that it is part of; one that a callback
+// makes has none.
+void test_calls_within_calls(void**) {
+  const msq::CallScope call;
+  msq::Job job;
+  const msq::CurrentJob current(&job);
+  {
+    const msq::CallScope own;
+    assert_ptr_equal(msq::current_job(), &job);
+  }
+  {
+    const msq::HostScope callback;
+    const msq::CallScope of_host;
+    assert_null(msq::current_job());
+  }
+  assert_ptr_equal(msq::current_job(), &job);
+}
+
 void test_tasks_beside_loops_of_the_host(void**) {
   Host host{by_threads};
   const Executor executor = host.executor(4);
@@ -241,6 +259,7 @@ int main() {
                               cmocka_unit_test(test_threads_of_the_host),
                               cmocka_unit_test(test_failures_of_the_host),
                               cmocka_unit_test(test_the_call_on_threads_of_the_host),
+                              cmocka_unit_test(test_calls_within_calls),
                               cmocka_unit_test(test_tasks_beside_loops_of_the_host)};
   return cmocka_run_group_tests_name("parallel", tests, nullptr, nullptr);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/borrowed.h"
+#include "base/checked.h"
 #include "base/id_table.h"
 #include "base/job.h"
 #include "structure/foam/edges/edge_brick.h"
@@ -49,7 +50,10 @@ class FoamStruts final : public StrutsOfOne {
     }
   }
 
-  uint64_t count() const override { return bricks_[0] * bricks_[1] * bricks_[2]; }
+  uint64_t count() const override {
+    return checked_product(checked_product(bricks_[0], bricks_[1], "bricks of cells"), bricks_[2],
+                           "bricks of cells");
+  }
 
   void append(uint64_t part, StrutList& list) const override {
     int32_t at[3];

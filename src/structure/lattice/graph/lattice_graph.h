@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/checked.h"
 #include "structure/common/struts.h"
 #include "structure/lattice/cell/unit_cell.h"
 
@@ -68,7 +69,10 @@ class LatticeStruts : public StrutsOfOne {
   LatticeStruts(const LatticeGraph& graph, const Neighbourhood& grid, const Parameter& radius,
                 const StrutSelection& selection);
 
-  uint64_t count() const final { return blocks_[0] * blocks_[1] * blocks_[2]; }
+  uint64_t count() const final {
+    return checked_product(checked_product(blocks_[0], blocks_[1], "blocks of cells"), blocks_[2],
+                           "blocks of cells");
+  }
   void append(uint64_t part, StrutList& list) const final;
   double radius_at(const Strut& strut, double factor, double t, Vec3 p) const final;
 

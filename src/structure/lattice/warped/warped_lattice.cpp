@@ -117,15 +117,16 @@ std::unique_ptr<StrutParts> WarpedLattice::struts(const StrutSelection& selectio
   return std::make_unique<WarpedStruts>(graph_, neighbourhood(), radius_, selection);
 }
 
-template <class Visit>
-void WarpedLattice::for_each_cell(const Box3& box, Visit&& visit) const {
+template <class Visit, class GoesOn>
+void WarpedLattice::for_each_cell(const Box3& box, Visit&& visit, GoesOn&& goes_on) const {
   const Neighbourhood& grid = neighbourhood();
   const Box3 in_grid = grid.to_grid(box).grown(widened());
   const bool is_turned = grid.sample_axes()[0] < 0;
   places_->for_each_cell(
       in_grid,
       [&](const Box3& bounds) {
-        return bounds.overlaps(in_grid) && (!is_turned || grid.from_grid(bounds).overlaps(box));
+        return goes_on() && bounds.overlaps(in_grid) &&
+               (!is_turned || grid.from_grid(bounds).overlaps(box));
       },
       visit);
 }
@@ -134,12 +135,15 @@ void WarpedLattice::for_each_strut(const Box3& box, const TakeStrut& take, const
   const Neighbourhood& grid = neighbourhood();
   const double radius = radius_.range().high;
   std::vector<Vec3> corners;
-  for_each_cell(box.grown(graph_.max_factor() * radius + widened()), [&](CellIndex cell) {
-    check_cancelled(job);
+  const auto take_cell = [&](CellIndex cell) {
     graph_.place(cell, corners);
     for (Vec3& corner : corners) corner = grid.from_grid(corner);
     for (const PlacedGraph::Strut& s : graph_.struts_of(cell))
       if (PlacedGraph::is_placed(corners, s)) take(corners[s.a], corners[s.b], s.factor * radius);
+  };
+  for_each_cell(box.grown(graph_.max_factor() * radius + widened()), take_cell, [&] {
+    check_cancelled(job);
+    return true;
   });
 }
 
@@ -149,12 +153,15 @@ void WarpedLattice::keep_rows(const RowBlock& block, const Job* job) const {
   StrutRows rows(block, grid, radius_, 1e-9 * most * radius_.range().high, most);
   if (rows.empty()) return;
   std::vector<CellIndex> cells;
-  for_each_cell(rows.reach(), [&](CellIndex cell) {
-    check_cancelled(job);
-    cells.push_back(cell);
-  });
-  if (!rows.pays(static_cast<double>(cells.size()), critical_samples))
-    return Structure::keep_rows(block, job);
+  const auto pays = [&] { return rows.pays(static_cast<double>(cells.size()), critical_samples); };
+  // There may be far more cells than samples.
+  for_each_cell(
+      rows.reach(), [&](CellIndex cell) { cells.push_back(cell); },
+      [&] {
+        check_cancelled(job);
+        return pays();
+      });
+  if (!pays()) return Structure::keep_rows(block, job);
   std::vector<Vec3> corners;
   // The struts of one factor one after the other.
   for (const double factor : graph_.factors())

@@ -71,9 +71,10 @@ class WarpedLattice final : public Structure {
   template <class Measure, class Reach>
   double least(Vec3 q, Measure&& measure, Reach&& reach) const;
   double widened() const { return 2e-6 * min_component(neighbourhood().cell_size); }
-  /// Calls visit(cell) for the cells whose struts may touch a box in model coordinates.
-  template <class Visit>
-  void for_each_cell(const Box3& box, Visit&& visit) const;
+  /// Calls visit(cell) for the cells whose struts may touch a box in model coordinates, for as long
+  /// as goes_on() is true.
+  template <class Visit, class GoesOn>
+  void for_each_cell(const Box3& box, Visit&& visit, GoesOn&& goes_on) const;
 
   const Ref<Context> context_;
   const uint64_t id_;  // in the cache
