@@ -88,6 +88,11 @@ void Mesh::fill_rows(const RowBlock& block) const {
                       [this](int64_t winding) { return solid(winding); });
 }
 
+MeshMap Mesh::mesh_map() const {
+  const double magnitude = max_magnitude(bounds().min) + max_magnitude(bounds().max);
+  return {this, nullptr, false, bounds(), crossing_error(magnitude)};
+}
+
 void Mesh::describe(HashInput& input) const {
   input.kind("shape: mesh");
   // Of closed meshes `automatic` is `nonzero`.

@@ -61,7 +61,7 @@ class Mesh final : public Shape {
            : rule_ == WindingRule::positive ? winding > 0
                                             : winding != 0;
   }
-  const Mesh* mesh() const override { return this; }
+  MeshMap mesh_map() const override;
   const std::shared_ptr<MemoryBudget>& budget() const { return budget_; }
   const std::vector<Vec3>& vertices() const { return soup_.vertices; }
   const std::vector<Triangle>& triangles() const { return soup_.triangles; }

@@ -138,25 +138,28 @@ Vec3 PlacedShape::normal(const Ray& ray, double t) const {
   return is_finite(normal) ? normal : ray.direction * -1.0;
 }
 
-// The roundings of a sample's place and of a vertex', and those of crossings in both frames. What
-// the sums of a vertex' place lose: as in Placement::to_placed().
-PlacedRows::Map PlacedShape::map_of_rows() const {
-  const Box3 &placed = bounds(), &original = original_->bounds();
-  const double magnitude = max_magnitude(placed.min) + max_magnitude(placed.max),
-               of_original = max_magnitude(original.min) + max_magnitude(original.max);
-  const double error = 3 * placement_.rounding(placed) + 0x1p-49 * magnitude +
-                       PlacedRows::crossing_error(magnitude) +
-                       placement_.max_growth() * PlacedRows::crossing_error(of_original);
-  return {[this](Vec3 v) { return placement_.to_placed(v); }, placement_.determinant() < 0, placed,
-          error};
+// The roundings of a sample's place and of a vertex'. What the sums of a vertex' place lose: as in
+// Placement::to_placed().
+MeshMap PlacedShape::mesh_map() const {
+  MeshMap map = original_->mesh_map();
+  if (!map.mesh) return map;
+  map.place = [this, place = std::move(map.place)](Vec3 v) {
+    return placement_.to_placed(place ? place(v) : v);
+  };
+  map.is_mirrored ^= placement_.determinant() < 0;
+  map.bounds = bounds();
+  const double magnitude = max_magnitude(bounds().min) + max_magnitude(bounds().max);
+  map.error =
+      placement_.max_growth() * map.error + 3 * placement_.rounding(bounds()) + 0x1p-49 * magnitude;
+  return map;
 }
 
 void PlacedShape::prepare_rows(const Job* job) const {
-  if (!PlacedRows::prepare(rows_, *original_, map_of_rows(), job)) prepare_distance(job);
+  if (!PlacedRows::prepare(rows_, *this, job)) prepare_distance(job);
 }
 
 void PlacedShape::fill_rows(const RowBlock& block) const {
-  if (PlacedRows::fill(rows_, *original_, map_of_rows(), block, *this)) return;
+  if (PlacedRows::fill(rows_, *this, block)) return;
   RowBoxes(block).fill(
       bounds(), [this](Vec3 p) { return distance(p); },
       [this](const Vec3* points, size_t count, uint8_t* inside) {

@@ -29,6 +29,7 @@ class PlacedShape final : public Shape, private BoundarySearch {
   }
   void prepare_distance(const Job* job) const override { original_->prepare_distance(job); }
   void prepare_rows(const Job* job) const override;
+  MeshMap mesh_map() const override;
   /// The depth of stretched shapes is not known: their distance is a bound.
   bool knows_depth() const override {
     return placement_.is_similarity() && original_->knows_depth();
@@ -60,8 +61,6 @@ class PlacedShape final : public Shape, private BoundarySearch {
   Range compare(Vec3 p, double low, double high, uint32_t& part) const override;
   bool follow(const Ray& ray, double from, double to, double first, double& t,
               const Job* job) const;
-
-  PlacedRows::Map map_of_rows() const;
 
   Ref<const Shape> original_;
   const Placement placement_;

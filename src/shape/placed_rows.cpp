@@ -97,38 +97,42 @@ class PlacedRows::Near {
   std::vector<uint8_t> inside_;
 };
 
-const PlacedRows* PlacedRows::find(const Lazy<PlacedRows>& rows, const Shape& original,
-                                   const Map& map, const Job* job) {
+const PlacedRows* PlacedRows::find(const Lazy<PlacedRows>& rows, const Shape& shape,
+                                   const Job* job) {
   // So a layer lies in two neighbouring bins at most.
   constexpr double part = 0x1p-20;
-  const Mesh* const mesh = original.mesh();
+  const MeshMap map = shape.mesh_map();
   const Vec3 size = map.bounds.extent();
-  if (!mesh || !mesh->facts().closed || !(map.error <= part * std::min({size.x, size.y, size.z})))
+  if (!map.mesh || !map.mesh->facts().closed || !(map.error <= part * min_component(size)))
     return nullptr;
-  return &rows.get([&] { return std::make_unique<const PlacedRows>(*mesh, map, job); });
+  return &rows.get([&] { return std::make_unique<const PlacedRows>(map, job); });
 }
 
-bool PlacedRows::fill(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
-                      const RowBlock& block, const Shape& definition) {
-  const PlacedRows* const found = find(rows, original, map, current_job());
-  if (found) found->fill(block, definition);
+bool PlacedRows::fill(const Lazy<PlacedRows>& rows, const Shape& shape, const RowBlock& block) {
+  const PlacedRows* const found = find(rows, shape, current_job());
+  if (found) found->fill(block, shape);
   return found;
 }
 
-PlacedRows::PlacedRows(const Mesh& mesh, const Map& map, const Job* job)
-    : mesh_(mesh), is_mirrored_(map.is_mirrored), bounds_(map.bounds), error_(2 * map.error) {
-  const uint64_t vertices = mesh.vertices().size(), triangles = mesh.triangles().size();
+// Twice the error leaves room for the rounding of what is found with it.
+PlacedRows::PlacedRows(const MeshMap& map, const Job* job)
+    : mesh_(*map.mesh),
+      is_mirrored_(map.is_mirrored),
+      bounds_(map.bounds),
+      error_(2 * (map.error +
+                  crossing_error(max_magnitude(map.bounds.min) + max_magnitude(map.bounds.max)))) {
+  const uint64_t vertices = mesh_.vertices().size(), triangles = mesh_.triangles().size();
   constexpr uint64_t bins_of_triangle = 40;
   reservation_ = Reservation(
-      mesh.budget(), vertices * sizeof(Vec3) + triangles * (sizeof(Triangle) + bins_of_triangle),
+      mesh_.budget(), vertices * sizeof(Vec3) + triangles * (sizeof(Triangle) + bins_of_triangle),
       "the triangles of a placed mesh");
   soup_.vertices.reserve(vertices);
   CancelPoll poll(job);
-  for (const Vec3& v : mesh.vertices()) {
+  for (const Vec3& v : mesh_.vertices()) {
     poll();
     soup_.vertices.push_back(map.place(v));
   }
-  soup_.triangles = mesh.triangles();
+  soup_.triangles = mesh_.triangles();
   sheets_ = TriangleBins(soup_, bounds_, 1, bins_for(triangles, 1.0, 16384), job);
 }
 

@@ -14,8 +14,6 @@
 // found from the triangle's part between the planes at z - error and z + error.
 #pragma once
 
-#include <functional>
-
 #include "base/lazy.h"
 #include "base/memory.h"
 #include "base/triangle_soup.h"
@@ -26,37 +24,22 @@ namespace msq {
 
 class PlacedRows {
  public:
-  /// place(v): where a vertex is placed, rounded. bounds: enclose the placed solid. error: as
-  /// above, all its parts summed up.
-  struct Map {
-    std::function<Vec3(Vec3)> place;
-    bool is_mirrored = false;
-    Box3 bounds;
-    double error = 0;
-  };
-
-  /// If the original is a mesh that can be drawn this way (closed, and much larger than the error),
-  /// sets the bits of the samples that are inside, in a block of zeros. Otherwise returns false.
-  /// rows: made at first use. definition: the placed shape.
-  static bool fill(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
-                   const RowBlock& block, const Shape& definition);
+  /// If a shape is a mesh that can be drawn this way (closed, and much larger than the error), sets
+  /// the bits of the samples that are inside, in a block of zeros. Otherwise returns false. rows:
+  /// made at first use.
+  static bool fill(const Lazy<PlacedRows>& rows, const Shape& shape, const RowBlock& block);
   /// The same, but only makes them.
-  static bool prepare(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
-                      const Job* job) {
-    return find(rows, original, map, job) != nullptr;
+  static bool prepare(const Lazy<PlacedRows>& rows, const Shape& shape, const Job* job) {
+    return find(rows, shape, job) != nullptr;
   }
 
   /// The mesh must live as long. Throws Error(limit) if its budget is exceeded, Error(cancelled) if
   /// the job, which may be null, is cancelled.
-  PlacedRows(const Mesh& mesh, const Map& map, const Job* job);
-
-  /// Bound on the errors of crossings of rows with triangles whose coordinates are up to this.
-  static double crossing_error(double magnitude) { return 0x1p-47 * magnitude; }
+  PlacedRows(const MeshMap& map, const Job* job);
 
  private:
   class Near;
-  static const PlacedRows* find(const Lazy<PlacedRows>& rows, const Shape& original, const Map& map,
-                                const Job* job);
+  static const PlacedRows* find(const Lazy<PlacedRows>& rows, const Shape& shape, const Job* job);
   void fill(const RowBlock& block, const Shape& definition) const;
   void find_near(const RowBlock& block, uint64_t k, Near& near) const;
 

@@ -14,6 +14,7 @@
 #include "base/ref.h"
 #include "base/sample_grid.h"
 #include "base/vec.h"
+#include "shape/mesh_map.h"
 
 namespace msq {
 
@@ -30,7 +31,6 @@ struct ShapeFacts {
 };
 
 class BoundarySearch;
-class Mesh;
 
 class Shape : public Described {
  public:
@@ -114,8 +114,8 @@ class Shape : public Described {
                                max_magnitude(bounds().max)));
   }
 
-  /// This, if it is a mesh.
-  virtual const Mesh* mesh() const { return nullptr; }
+  /// The mesh that it is, and where.
+  virtual MeshMap mesh_map() const { return {}; }
   /// Number of pairs of triangles that meet where they should not; none where there are no
   /// triangles.
   virtual uint64_t self_intersections(const Job*) const { return 0; }

@@ -56,6 +56,11 @@ inline double cross_segment(const PlanePoint& low, const PlanePoint& high, doubl
   return low.x + t * (high.x - low.x);
 }
 
+/// Bound on the error of crossings of rows with triangles whose coordinates are up to this.
+inline double crossing_error(double magnitude) {
+  return 0x1p-47 * magnitude;
+}
+
 /// Sign of a crossing: the decrease of the winding number across it along +x. For outward normals
 /// the surface is left (+1) where the segment's upward end has the larger y.
 inline int crossing_sign(const PlaneSegment& s) {

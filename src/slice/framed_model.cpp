@@ -59,12 +59,30 @@ class FramedShape final : public Shape {
     shape_->find_inside(mapped(frame_, points, count).data(), count, inside);
   }
   bool is_concurrent() const override { return shape_->is_concurrent(); }
+  /// Points and vertices are rounded as LayerFrame::rounding() says, and axes are orthonormal
+  /// except for rounding.
+  MeshMap mesh_map() const override {
+    MeshMap map = shape_->mesh_map();
+    if (!map.mesh) return map;
+    map.place = [this, place = std::move(map.place)](Vec3 v) {
+      return frame_.from_model(place ? place(v) : v);
+    };
+    const auto& [u, v, w] = frame_.axes;
+    map.is_mirrored ^= dot(msq::cross(u, v), w) < 0;
+    const auto magnitude = [](const Box3& box) {
+      return max_magnitude(box.min) + max_magnitude(box.max);
+    };
+    map.error += 0x1p-46 *
+                 (magnitude(bounds()) + magnitude(shape_->bounds()) + max_magnitude(frame_.origin));
+    map.bounds = bounds();
+    return map;
+  }
   unsigned nesting() const override { return shape_->nesting(); }
   uint64_t terms() const override { return shape_->terms(); }
   void prepare_distance(const Job* job) const override { shape_->prepare_distance(job); }
   void prepare_rows(const Job* job) const override {
     if (model_axes_[0] >= 0) return shape_->prepare_rows(job);
-    if (!PlacedRows::prepare(rows_, *shape_, map_of_rows(), job)) prepare_distance(job);
+    if (!PlacedRows::prepare(rows_, *this, job)) prepare_distance(job);
   }
   double depth(Vec3 p) const override { return shape_->depth(frame_.to_model(p)); }
   double depth(Vec3 p, double) const override { return depth(p); }
@@ -98,24 +116,12 @@ class FramedShape final : public Shape {
 
  private:
   void fill_turned_rows(const RowBlock& block) const {
-    if (PlacedRows::fill(rows_, *shape_, map_of_rows(), block, *this)) return;
+    if (PlacedRows::fill(rows_, *this, block)) return;
     RowBoxes(block).fill(
         bounds(), [this](Vec3 p) { return distance(p); },
         [this](const Vec3* points, size_t count, uint8_t* inside) {
           find_inside(points, count, inside);
         });
-  }
-  /// Points and vertices are rounded as LayerFrame::rounding() says, and axes are orthonormal
-  /// except for rounding.
-  PlacedRows::Map map_of_rows() const {
-    const Box3& of_model = shape_->bounds();
-    const double here = max_magnitude(bounds().min) + max_magnitude(bounds().max),
-                 there = max_magnitude(of_model.min) + max_magnitude(of_model.max);
-    const double error = 0x1p-46 * (here + there + max_magnitude(frame_.origin)) +
-                         PlacedRows::crossing_error(here) + PlacedRows::crossing_error(there);
-    const auto& [u, v, w] = frame_.axes;
-    return {[this](Vec3 p) { return frame_.from_model(p); }, dot(msq::cross(u, v), w) < 0, bounds(),
-            error};
   }
 
   Ref<const Shape> shape_;

@@ -163,8 +163,12 @@ void test_layers_in_frames(void**) {
   Random random(4);
   uint64_t inside = 0;
   for (size_t n = 0; n < test_count(100); ++n) {
+    // Every other one is also placed.
+    const Placement placement = random_placement(random);
     const Ref<const Shape> mesh =
-        make_ref<Mesh>(soup, rules[n % 4], std::make_shared<MemoryBudget>(uint64_t{0}));
+        n % 2 ? placed(soup, rules[n / 2 % 4], placement)
+              : Ref<const Shape>(make_ref<Mesh>(soup, rules[n / 2 % 4],
+                                                std::make_shared<MemoryBudget>(uint64_t{0})));
     const Ref<const Model> model =
         make_ref<Model>(context, mesh, std::vector<Ref<const Structure>>{});
     LayerFrame frame;
@@ -174,7 +178,8 @@ void test_layers_in_frames(void**) {
                             : std::array<Vec3, 3>{u, w, cross(u, w)};
     frame.origin = random.in_box({{-9, -9, -9}, {9, 9, 9}});
     const Ref<const Model> framed = make_framed_model(*model, frame);
-    const Vec3 p = frame.from_model(soup.vertices[random.below(soup.vertices.size())]);
+    const Vec3 vertex = soup.vertices[random.below(soup.vertices.size())];
+    const Vec3 p = frame.from_model(n % 2 ? placement.to_placed(vertex) : vertex);
     for (const double spacing : {0x1p-50, 0x1p-46, 0x1p-40, 0.05})
       inside +=
           check(framed->shape(), grid_of(p - Vec3{3, 3, 3} * spacing, Vec3{1, 1, 1} * spacing, 7));
