@@ -76,10 +76,11 @@ struct JobPart {
 };
 
 /// Marks the start and the successful end of a call in a job, which may be null. In between the job
-/// is the thread's current job and stays alive: callbacks may release the host's last reference.
+/// is the thread's current job and stays alive: callbacks may release the host's last reference. A
+/// call without a job goes on with that of the call of msq that it is part of, if any.
 class JobScope {
  public:
-  /// Throws Error(cancelled) if the job is cancelled.
+  /// Throws Error(cancelled) if the current job is cancelled.
   explicit JobScope(Job* job);
   void done() {
     if (job_) job_->set_progress(1);
@@ -118,12 +119,12 @@ class PollEvery {
 using JobPoll = PollEvery<64>;
 using CancelPoll = PollEvery<1024>;
 
-inline JobScope::JobScope(Job* job) : job_(job), current_(job) {
+inline JobScope::JobScope(Job* job) : job_(job), current_(job ? job : current_job()) {
   if (job_) {
     job_->set_progress(0);
     job_->counts().clear();
   }
-  check_cancelled(job);
+  check_cancelled();
 }
 
 }  // namespace msq

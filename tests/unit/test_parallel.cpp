@@ -226,6 +226,16 @@ void test_calls_within_calls(void**) {
   {
     const msq::CallScope own;
     assert_ptr_equal(msq::current_job(), &job);
+    const msq::JobScope without(nullptr);
+    assert_ptr_equal(msq::current_job(), &job);
+    job.cancel();
+    bool is_cancelled = false;
+    try {
+      const msq::JobScope again(nullptr);
+    } catch (const msq::Error& error) {
+      is_cancelled = error.status == msq::Status::cancelled;
+    }
+    assert_true(is_cancelled);
   }
   {
     const msq::HostScope callback;
