@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through shapes agree with membership along them: at random, through vertices, along edges
 // and faces, and along the axes.
+#include "base/unit.h"
 #include "flat_boundary.h"
+#include "meshes.h"
 #include "random.h"
 #include "ray_check.h"
+#include "shape/mesh.h"
 #include "shapes.h"
 #include "suite.h"
 
@@ -122,9 +125,32 @@ void test_row(void** state) {
   check_together(row.name.c_str(), *shape, searches);
 }
 
+/// A face with a needle along an edge. Rounding moves the needle's plane, where membership does not
+/// change.
+void needles_are_entered_where_membership_changes(void**) {
+  const Rotation turn = turned_twice();
+  TriangleSoup soup;
+  for (const Vec3 v :
+       {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5, 1, 0}, Vec3{0.4, 1e-9, 0}, Vec3{0.5, 0.3, -1}})
+    soup.vertices.push_back(turn.apply(v) + Vec3{0.3, 0.1, -0.2});
+  soup.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 0}};
+  const Ref<const Mesh> mesh =
+      make_ref<Mesh>(soup, WindingRule::automatic, std::make_shared<MemoryBudget>(uint64_t{0}));
+  const Vec3 a = soup.vertices[0], b = soup.vertices[1], c = soup.vertices[3];
+  const Vec3 way = unit_along(turn.apply({0.1, 0.7, -0.7}));
+  for (int i = 1; i < 40; ++i) {
+    const Vec3 p = a + (b - a) * (0.02 * i) + (c - a) * 0.2;
+    double t = 0;
+    assert_true(mesh->enter({p - way, way}, 0, 3, t, nullptr));
+    if (!(std::abs(t - 1) <= 2 * mesh->ray_tolerance())) fail_msg("ray %d enters at %.17g", i, t);
+  }
+}
+
 }  // namespace
 
 int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(needles_are_entered_where_membership_changes)};
   std::vector<ShapeRow> rows = shape_rows();
-  return run_for_each("shape_rays", rows, test_row);
+  return cmocka_run_group_tests_name("rays at needles", tests, nullptr, nullptr) +
+         run_for_each("shape_rays", rows, test_row);
 }

@@ -99,7 +99,9 @@ void finds_the_same(void** state) {
   // Of a foam that rays were never cast through, single rays march.
   const Ref<const Foam> foam = foam_of(row), fresh = foam_of(row);
   size_t found = 0;
-  for (size_t n = 0; n < test_count(20); ++n) {
+  // Of plain foams few rays meet ties, and rays are cheap.
+  const size_t least = row.seeds == Seeds::plain ? 20 : 1;
+  for (size_t n = 0; n < std::max(least, test_count(20)); ++n) {
     std::vector<RaySearch> together = tile(row, random), alone = together, steps = together;
     assert_true(walk_cells(*foam, together.data(), together.size(), nullptr));
     for (size_t i = 0; i < together.size(); ++i) {

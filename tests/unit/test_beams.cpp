@@ -239,6 +239,46 @@ void the_distance_to_a_beam_leads_to_it(void**) {
   }
 }
 
+/// The first ray meets the ball beside the axis, the second in the side, the third the half ball.
+void normals_of_round_ends_are_those_of_balls(void**) {
+  const double s = std::sqrt(0.5);
+  const std::vector<Beam> beams{{{0, 0, 0}, {4, 0, 0}, 1, 2, BeamCap::sphere, BeamCap::hemisphere}};
+  const Ref<Beams> made = make(beams);
+  for (const auto& [origin, way, t, normal] :
+       {std::tuple{Vec3{-3, 0.6, 0}, Vec3{1, 0, 0}, 2.2, Vec3{-0.8, 0.6, 0}},
+        {Vec3{-s, -3, 0}, Vec3{0, 1, 0}, 3 - s, Vec3{-s, -s, 0}},
+        {Vec3{9, 0, -1.2}, Vec3{-1, 0, 0}, 3.4, Vec3{0.8, 0, -0.6}}}) {
+    RaySearch search{{origin, way}, 0, 20};
+    made->enter(&search, 1, nullptr);
+    assert_true(search.found && std::abs(search.t - t) < 1e-9);
+    assert_true(length(search.normal - normal) < 1e-9);
+    assert_true(length(made->normal(search.ray, search.t) - normal) < 1e-9);
+  }
+}
+
+/// So slender that rounding of the squared distance from the axis exceeds the squared radius. The
+/// rays cross the axis, soon after they begin.
+void rays_meet_slender_beams(void**) {
+  constexpr double radius = 1e-9, before = 1e-8;
+  Random random(9);
+  for (int n = 0; n < 300; ++n) {
+    const Vec3 a = random.in_box({{-1, -1, -1}, {1, 1, 1}}), along = random.direction();
+    const Vec3 on = a + along * random.between(0.02, 0.98), way = random.direction();
+    const double sine = length(cross(along, way));
+    if (sine < 0.3) continue;
+    const std::vector<Beam> beams{{a, a + along, radius, radius, BeamCap::butt, BeamCap::butt}};
+    const Ref<Beams> made = make(beams);
+    RaySearch search{{on - way * before, way}, 0, 1};
+    made->enter(&search, 1, nullptr);
+    if (!search.found) fail_msg("ray %d is lost", n);
+    assert_true(std::abs(search.t - (before - radius / sine)) <= 2 * made->ray_tolerance());
+    // From farther away, and to an end within the beam.
+    RaySearch ended{{on - way, way}, 0, 1};
+    made->enter(&ended, 1, nullptr);
+    if (made->inside(ended.ray.at(1)) && !ended.found) fail_msg("ray %d ends in the beam", n);
+  }
+}
+
 void the_curve_goes_from_neighbour_to_neighbour(void**) {
   for (const unsigned bits : {1u, 2u, 4u}) {
     const uint32_t side = uint32_t{1} << bits;
@@ -301,6 +341,8 @@ int main() {
       cmocka_unit_test(threads_change_no_order),
       cmocka_unit_test(distances_are_exact_outside),
       cmocka_unit_test(the_distance_to_a_beam_leads_to_it),
+      cmocka_unit_test(normals_of_round_ends_are_those_of_balls),
+      cmocka_unit_test(rays_meet_slender_beams),
       cmocka_unit_test(the_curve_goes_from_neighbour_to_neighbour),
       cmocka_unit_test(memory_is_counted_and_given_back),
       cmocka_unit_test(a_cancelled_job_stops_it),

@@ -191,6 +191,19 @@ void all_ways_to_ask_a_point_agree(void**) {
   assert_in_range(with_distance, points / 100, points / 2);
 }
 
+/// From ball to ball, in the order opposite to that in which they are listed; one lies apart.
+void unions_are_left_where_the_last_part_ends(void**) {
+  StructureList balls;
+  for (int i = 4; i >= 0; --i) balls.push_back(make_ref<Ball>(Vec3{0.8 * i, 0, 0}, 0.5));
+  balls.push_back(make_ref<Ball>(Vec3{5, 0, 0}, 0.5));
+  const BooleanStructure made(Operation::united, balls);
+  const Ray ray{{-2, 0, 0}, {1, 0, 0}};
+  const double out = made.leave(ray, 1.75, 10, nullptr);
+  if (!(std::abs(out - 5.7) <= 2 * made.ray_tolerance(ray, 10))) fail_msg("left at %.17g", out);
+  assert_true(made.leave(ray, 1.75, 4, nullptr) == 4);
+  assert_true(made.leave(ray, 1, 10, nullptr) == 1);
+}
+
 /// Not to be evaluated at x > 0.
 class PickyField final : public Field {
  public:
@@ -397,6 +410,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(each_member_is_evaluated_a_few_times),
       cmocka_unit_test(all_ways_to_ask_a_point_agree),
+      cmocka_unit_test(unions_are_left_where_the_last_part_ends),
       cmocka_unit_test(dropped_points_are_not_evaluated),
       cmocka_unit_test(booleans_lose_no_precision),
       cmocka_unit_test(blends_of_waves_have_steady_distances),

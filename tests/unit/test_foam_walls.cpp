@@ -181,6 +181,23 @@ void test_rays_meet_walls(void**) {
   assert_true(worst <= 2 * walls.ray_tolerance() && met > 0 && odd <= met / 100);
 }
 
+/// Where the slope of the thickness is known, no step is longer than both the distance and the
+/// tolerance: even thin walls are met.
+void test_steps_miss_no_thin_wall(void**) {
+  const FoamWalls walls(context(), {}, Parameter(0.002), 1, 9);
+  Random random(14);
+  for (size_t i = 0; i < 40 + test_count(200); ++i) {
+    RaySearch search;
+    search.ray = {random.in_box({{-9, -9, -9}, {9, 9, 9}}), random.direction()};
+    search.to = 5;
+    RaySearch marched = search;
+    walls.enter(&search, 1, nullptr);
+    walls.Structure::enter(&marched, 1, nullptr);
+    assert_true(search.found && marched.found);
+    assert_true(std::abs(search.t - marched.t) <= 2 * walls.ray_tolerance());
+  }
+}
+
 /// Struts and walls are the union of both.
 void test_struts_and_walls(void**) {
   const Neighbourhood grid{{}, {1, 0.8, 1.2}, {}};
@@ -206,8 +223,8 @@ void test_struts_and_walls(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(test_one_seed_a_cell), cmocka_unit_test(test_without_jitter),
-      cmocka_unit_test(test_graded_density), cmocka_unit_test(test_rays_meet_walls),
-      cmocka_unit_test(test_struts_and_walls)};
+      cmocka_unit_test(test_one_seed_a_cell),         cmocka_unit_test(test_without_jitter),
+      cmocka_unit_test(test_graded_density),          cmocka_unit_test(test_rays_meet_walls),
+      cmocka_unit_test(test_steps_miss_no_thin_wall), cmocka_unit_test(test_struts_and_walls)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

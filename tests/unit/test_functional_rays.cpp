@@ -97,6 +97,21 @@ void rays_along_surfaces_find_what_is_beyond(void**) {
   assert_true(std::abs(search.ray.at(search.t).y - 3.5 / two_pi) < 1e-9);
 }
 
+/// Not even a short part, if the way is shorter than 10^4 tolerances.
+void rays_shortly_along_surfaces_lose_nothing(void**) {
+  // Angles are 2 pi to a cell: it is 98 tolerances long.
+  const Ref<Functional> solid = make("min(x,3+1e6*(abs(y-4)-4.5e-9))", FunctionalKind::network, 3);
+  const double x = std::nextafter(3 / two_pi, 1.0) + 0x1p-51, y = (4 - 4.5e-9) / two_pi;
+  const double tolerance = solid->ray_tolerance();
+  for (const double way : {100.0, 1000.0, 3000.0}) {
+    RaySearch search{{{x, y - way * tolerance, 0.2}, {0, 1, 0}}, 0, 0.1};
+    assert_false(solid->inside(search.ray.at(0)));
+    solid->enter(&search, 1, nullptr);
+    if (!(search.found && std::abs(search.t - way * tolerance) < 4 * tolerance))
+      fail_msg("%d at %g tolerances, not %g", search.found, search.t / tolerance, way);
+  }
+}
+
 /// More rays than are searched at once, some of which have no length or are none.
 void rays_together_are_as_each_alone(void**) {
   for (const char* text : {"sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)", "x^2+y^2+z^2-9"}) {
@@ -172,6 +187,7 @@ void steep_functions_end(void**) {
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(rays_along_surfaces_end),
                               cmocka_unit_test(rays_along_surfaces_find_what_is_beyond),
+                              cmocka_unit_test(rays_shortly_along_surfaces_lose_nothing),
                               cmocka_unit_test(rays_together_are_as_each_alone),
                               cmocka_unit_test(searches_stop_with_their_job),
                               cmocka_unit_test(steep_functions_end)};

@@ -247,10 +247,26 @@ void test_crossings(void** state) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
+/// Along its own line a needle seems to reach far beyond its ends: the margin over its height.
+void needles_are_not_crossed_beyond_their_ends(void**) {
+  const TreeTriangle needle({0, 0, 0}, {1, 0, 0}, {0.5, 0x1p-30, 0});
+  const TriangleTree tree({needle}, nullptr);
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1) {
+    hwy::SetSupportedTargetsForTest(all & -all);
+    TriangleTree::Crossing crossing;
+    assert_true(tree.first_crossing({{0.75, 0, -1}, {0, 0, 1}}, 0, 2, 0x1p-31, crossing));
+    assert_true(crossing.t == 1);
+    assert_false(tree.first_crossing({{1.25, 0, -1}, {0, 0, 1}}, 0, 2, 0x1p-31, crossing));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
 }  // namespace
 
 int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(needles_are_not_crossed_beyond_their_ends)};
   std::vector<Row> all = rows();
-  return run_for_each("distances", all, test_distances) +
+  return cmocka_run_group_tests_name("triangle tree", tests, nullptr, nullptr) +
+         run_for_each("distances", all, test_distances) +
          run_for_each("crossings", all, test_crossings);
 }

@@ -3,6 +3,7 @@
 // it, against the sum of the solid angles of all triangles.
 #include "meshes.h"
 #include "random.h"
+#include "shape/half_angles.h"
 #include "shape/mesh_diagnosis.h"
 #include "shape/open_mesh.h"
 #include "shape/triangle_tree.h"
@@ -251,10 +252,26 @@ void test_caps(void** state) {
   assert_true(proven > count);
 }
 
+/// On the real axis the sign of a 0 says on which side of it an angle is.
+void half_turns_add_up(void**) {
+  for (const int way : {1, -1}) {
+    HalfAngles sum;
+    for (int count = 1; count <= 5; ++count) {
+      sum.add(-1, way * 0.0);
+      const double angle = 2 * pi * static_cast<double>(sum.turns()) + sum.rest();
+      if (!(std::abs(angle - way * count * pi) < 1e-12))
+        fail_msg("%d half turns make %.17g", way * count, angle);
+      assert_true(sum.rest() > -pi && sum.rest() <= pi);
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(half_turns_add_up)};
   std::vector<Row> all = rows();
-  return run_for_each("loops", all, test_loops) + run_for_each("numbers", all, test_numbers) +
+  return cmocka_run_group_tests_name("half angles", tests, nullptr, nullptr) +
+         run_for_each("loops", all, test_loops) + run_for_each("numbers", all, test_numbers) +
          run_for_each("caps", all, test_caps);
 }

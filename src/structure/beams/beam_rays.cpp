@@ -32,11 +32,15 @@ bool BeamRays::settle(const BeamPart& part, const Ray& ray, double enter, double
   const auto holds = [&](Vec3 p) { return part.holds(p); };
   t = std::clamp(enter, from, to);
   if (settle_entry(ray, from, tolerance_, holds, t)) return true;
-  // Formulas may be too early, by much if the ray grazes the part or runs along it.
-  const double first = t, middle = 0.5 * (first + std::min(leave, to));
-  if (!(middle > first) || !holds(ray.at(middle))) return false;
-  t = bisect(first, middle, tolerance_, [&](double at) { return holds(ray.at(at)); });
-  return true;
+  // Formulas may be too early, by much if the ray grazes the part or runs along it. In a slender
+  // one the ray may end before the middle would be inside.
+  const double first = t, last = std::min(leave, to);
+  for (const double inner : {0.5 * (first + last), last}) {
+    if (!(inner > first) || !holds(ray.at(inner))) continue;
+    t = bisect(first, inner, tolerance_, [&](double at) { return holds(ray.at(at)); });
+    return true;
+  }
+  return false;
 }
 
 void BeamRays::enter(RaySearch& search) const {
