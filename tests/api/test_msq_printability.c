@@ -483,6 +483,7 @@ static void callbacks_stop_the_call(void** state) {
     msq_shape* apart[2] = {box_of(context, 0, 0, 0, 8, 8, 8), box_of(context, 9, 0, 0, 12, 8, 8)};
     msq_slicer* of_two = slicer_of(context, join(MSQ_BOOLEAN_UNION, apart, 2));
     const msq_printability_def loose = printability_def(MSQ_FINDING_LOOSE, 0);
+    list.calls = 0;
     assert_status(msq_printability(of_two, &loose, take_findings, &list, &report, job), MSQ_E_HOST);
     assert_true(progress_of(job) < 1);
     msq_slicer_release(of_two);
