@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A closed mesh of 270,000 triangles sliced at 1024^3, against its own point query and CGAL's. Also
-// the memory of slabs: 2048^2 x 64 layers as bits.
+// A closed mesh of 270,000 triangles sliced at 1024^3, against its own point query and CGAL's; the
+// same mesh placed, and with holes. Also the memory of slabs: 2048^2 x 64 layers as bits.
 #include <cmath>
 #include <random>
 
@@ -21,10 +21,31 @@ struct Sliced {
   msq_slicer* slicer;
 };
 
-Sliced make_slicer(const bench::MeshArrays& mesh, uint32_t resolution, uint32_t slab_layers) {
+/// Turned about two axes through the middle of the unit cube.
+msq_shape* turned(msq_shape* shape) {
+  const double c = std::cos(0.4), s = std::sin(0.4);
+  const double turn[3][3] = {{c, -s * c, s * s}, {s, c * c, -c * s}, {0, s, c}};
+  double matrix[12];
+  for (int i = 0; i < 3; ++i) {
+    matrix[4 * i + 3] = 0.5;
+    for (int j = 0; j < 3; ++j) {
+      matrix[4 * i + j] = turn[i][j];
+      matrix[4 * i + 3] -= 0.5 * turn[i][j];
+    }
+  }
+  msq_shape* placed;
+  bench::check(msq_shape_placed(shape, matrix, &placed));
+  msq_shape_release(shape);
+  return placed;
+}
+
+Sliced make_slicer(const bench::MeshArrays& mesh, uint32_t resolution, uint32_t slab_layers,
+                   bool is_turned = false) {
   Sliced made{};
   made.context = bench::make_context();
-  made.model = bench::make_model(made.context, bench::make_shape(made.context, mesh), nullptr);
+  msq_shape* shape = bench::make_shape(made.context, mesh);
+  if (is_turned) shape = turned(shape);
+  made.model = bench::make_model(made.context, shape, nullptr);
   msq_slicer_def def;
   bench::check(msq_slicer_def_init(&def, sizeof def));
   def.resolution[0] = def.resolution[1] = resolution;
@@ -115,6 +136,14 @@ int main(int count, char** arguments) try {
         msq_slicer_run(sliced.slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
   });
   report.add("slices 1024^3 as bits", slicing, rows, "row");
+  const Sliced placed = make_slicer(mesh, 1024, 0, true);
+  const double slicing_placed = bench::median_seconds([&] {
+    bench::check(
+        msq_slicer_run(placed.slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
+  });
+  report.add("slices 1024^3 as bits, mesh placed by a rotation", slicing_placed, rows, "row");
+  report.note("  that against the mesh as it is", slicing_placed / slicing, "times the time");
+  release(placed);
   const Sliced open = make_slicer(with_holes(mesh), 1024, 0);
   const double slicing_open = bench::median_seconds([&] {
     bench::check(msq_slicer_run(open.slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
