@@ -4,17 +4,7 @@
 #include "definitions.h"
 #include "fills.h"
 #include "layers.h"
-
-static const double sizes[2] = {1, 1.2}, positions[2] = {0, 1};
-
-static msq_period_def period_def(void) {
-  msq_period_def def;
-  assert_ok(msq_period_def_init(&def, sizeof def));
-  def.positions = positions;
-  def.cell_sizes = sizes;
-  def.count = 2;
-  return def;
-}
+#include "periods.h"
 
 static msq_structure* periodic_lattice(msq_context* context) {
   const msq_period_def period = period_def();
