@@ -1267,8 +1267,8 @@ MSQ_API msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size);
  * distance. With a period or a warp: the struts near a cell are found when the cell is first
  * evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius
  * times the greatest factor above 4 times the smallest cell size; cell sizes that differ by more
- * than 2^20 times; library too large; a sampled map of more than 2^24 cells), MEMORY, UNSUPPORTED (both a period and a warp; either of
- * them with a library of several unit cells). */
+ * than 2^20 times; library too large; a sampled map of more than 2^24 cells), MEMORY, UNSUPPORTED
+ * (both a period and a warp; either of them with a library of several unit cells). */
 MSQ_API msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def,
                                          msq_structure** structure);
 
@@ -2129,8 +2129,9 @@ MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
  * beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells
  * around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone,
  * and structures made of others, except unions of those with struts: they have no struts), LIMIT (a
- * box beyond 2^24 cells from the origin of the grid, or of 2^64 blocks of cells), HOST, CANCELLED, MEMORY. Source: 3MF
- * Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991. */
+ * box beyond 2^24 cells from the origin of the grid, or of 2^64 blocks of cells), HOST, CANCELLED,
+ * MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer
+ * 1991. */
 MSQ_API msq_status msq_structure_struts(msq_context* context, const msq_structure* structure,
                                         const msq_struts_def* def, msq_struts_fn callback,
                                         void* user, msq_job* job);
@@ -2270,11 +2271,12 @@ MSQ_API msq_status msq_model_def_init(msq_model_def* def, size_t size);
  *
  * The skin is the set of points of the shape whose depth is at most the thickness at the point,
  * where the thickness is above 0. Depth is the distance to the boundary of the shape, as in
- * msq_point_distance. Primitives and meshes have depth; voxel images, host shapes and some shapes made
- * of shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of
- * the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the
- * origin of a structure's grid), UNSUPPORTED (a skin in a shape without depth:
- * docs/concepts.md), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the paper has no skin.
+ * msq_point_distance. Primitives and meshes have depth; voxel images, host shapes and some shapes
+ * made of shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call
+ * that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and
+ * reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a shape without
+ * depth: docs/concepts.md), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling
+ * API"; the paper has no skin.
  */
 MSQ_API msq_status msq_model_create(msq_context* context, const msq_model_def* def,
                                     msq_model** model);
