@@ -23,14 +23,14 @@ struct Sliced {
 
 /// Turned about two axes through the middle of the unit cube.
 msq_shape* turned(msq_shape* shape) {
-  const double c = std::cos(0.4), s = std::sin(0.4);
-  const double turn[3][3] = {{c, -s * c, s * s}, {s, c * c, -c * s}, {0, s, c}};
+  msq_neighbourhood grid;
+  bench::turn(grid);
   double matrix[12];
   for (int i = 0; i < 3; ++i) {
     matrix[4 * i + 3] = 0.5;
     for (int j = 0; j < 3; ++j) {
-      matrix[4 * i + j] = turn[i][j];
-      matrix[4 * i + 3] -= 0.5 * turn[i][j];
+      matrix[4 * i + j] = grid.rotation[3 * i + j];
+      matrix[4 * i + 3] -= 0.5 * matrix[4 * i + j];
     }
   }
   msq_shape* placed;

@@ -816,7 +816,7 @@ MSQ_API msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_
  * of a mesh instead. Bounds enclose the placed bounding box of the original.
  *
  * Cost: constant. Points and rays cost what they cost in the original. Layers of a closed mesh cost
- * little more than those of the original; the first one places a copy of its vertices and
+ * up to twice those of the original; the first one places a copy of its vertices and
  * triangles, which counts against the memory limit. Layers of other shapes evaluate the distance
  * at a few samples per sample of the outline, which costs tens of times as much as an unplaced
  * mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition
@@ -2129,7 +2129,7 @@ MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
  * beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells
  * around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone,
  * and structures made of others, except unions of those with struts: they have no struts), LIMIT (a
- * box beyond 2^24 cells from the origin of the grid, or of 2^64 blocks of cells), HOST, CANCELLED,
+ * box beyond 2^24 cells from the origin of the grid, or of 2^63 blocks of cells), HOST, CANCELLED,
  * MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer
  * 1991. */
 MSQ_API msq_status msq_structure_struts(msq_context* context, const msq_structure* structure,
@@ -3221,9 +3221,9 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * plates; 1 us per square that a function's line crosses, 20 ns per other square; of waves 11 ns
  * per wave and square that a line crosses. Errors: ARGUMENT (also, with its index: a ring of fewer
  * than 3 points or whose points are on one line; a pair_distance or corner_distance above 2^54
- * units), UNSUPPORTED (no thin walls), LIMIT, CANCELLED,
- * HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes",
- * 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973. */
+ * units), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power
+ * diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching,
+ * Euler tours and the Chinese postman", 1973. */
 MSQ_API msq_status msq_fill_lines(msq_context* context, const msq_structure* structure,
                                   const msq_fill_def* def, msq_fill** fill, msq_job* job);
 /** Adds a reference. */

@@ -21,6 +21,19 @@ void require_members(const Handle* const* members, uint64_t count, const char* n
   require(members, name);
 }
 
+/// An object made of others of its kind, which are not too many or too deep within each other.
+template <class Made>
+void require_small(const Made& made, const char* kind) {
+  if (made.nesting() > max_nesting)
+    fail(Status::limit, "%u %s made of %s would be within each other; the limit is %u",
+         made.nesting(), kind, kind, max_nesting);
+  if (made.terms() > max_members)
+    fail(Status::limit,
+         "it would be made of %llu %s, the same counted as often as it occurs; the limit is %llu",
+         static_cast<unsigned long long>(made.terms()), kind,
+         static_cast<unsigned long long>(max_members));
+}
+
 /// What `read` makes of each member and its index. None may be NULL.
 template <class Member, class Handle, class Read>
 std::vector<Ref<const Member>> read_members(const Handle* const* members, uint64_t count,

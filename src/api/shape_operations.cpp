@@ -16,9 +16,7 @@ namespace {
 /// A new shape made of others, if it is not too large and these not too deep within each other.
 template <class Def>
 msq_shape* made_of_shapes(const Ref<Shape>& shape, const Def& def) {
-  if (shape->nesting() > max_nesting)
-    fail(Status::limit, "%u shapes made of shapes would be within each other; the limit is %u",
-         shape->nesting(), max_nesting);
+  require_small(*shape, "shapes");
   check_size(max_magnitude(shape->bounds().extent()), shape->bounds().min);
   return defined_handle<msq_shape>(shape, def);
 }
@@ -57,13 +55,6 @@ msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes, 
         shapes, count, "shapes", [](const Shape& member, uint64_t i) -> const Shape& {
           return require_bounded(member, ("shapes[" + std::to_string(i) + "]").c_str());
         });
-    // Counted before it is made: each step of a chain of unions of a shape with itself doubles it.
-    uint64_t terms = 0;
-    for (const Ref<const Shape>& member : members) terms += member->terms();
-    if (terms > max_members)
-      fail(Status::limit,
-           "the shape would be made of %llu shapes, counted with repetition; the limit is %llu",
-           static_cast<unsigned long long>(terms), static_cast<unsigned long long>(max_members));
     *shape = made_of_shapes(make_ref<BooleanShape>(known, std::move(members)),
                             BooleanDef{operation, shapes, count});
   });

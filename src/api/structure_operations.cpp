@@ -18,17 +18,7 @@ namespace {
 /// A new structure made of others, if these are not too many or too deep within each other.
 template <class Def>
 msq_structure* made_of_structures(const Ref<CombinedStructure>& structure, const Def& def) {
-  if (structure->nesting() > max_nesting)
-    fail(Status::limit,
-         "%u structures made of structures would be within each other; the limit is %u",
-         structure->nesting(), max_nesting);
-  if (structure->terms() > max_members)
-    fail(
-        Status::limit,
-        "it would be made of %llu structures, the same counted as often as it occurs; the limit is "
-        "%llu",
-        static_cast<unsigned long long>(structure->terms()),
-        static_cast<unsigned long long>(max_members));
+  require_small(*structure, "structures");
   return defined_handle<msq_structure>(structure, def);
 }
 

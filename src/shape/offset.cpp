@@ -52,11 +52,7 @@ Vec3 OffsetShape::normal(const Ray& ray, double t) const {
 }
 
 void OffsetShape::fill_rows(const RowBlock& block) const {
-  RowBoxes(block).fill(
-      bounds(), [this](Vec3 p) { return distance(p); },
-      [this](const Vec3* points, size_t count, uint8_t* inside) {
-        find_inside(points, count, inside);
-      });
+  RowBoxes::fill(*this, block);
 }
 
 void OffsetShape::describe(HashInput& input) const {

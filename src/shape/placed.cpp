@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/hash_input.h"
-#include "shape/row_boxes.h"
 
 namespace msq {
 
@@ -152,19 +151,6 @@ MeshMap PlacedShape::mesh_map() const {
   map.error =
       placement_.max_growth() * map.error + 3 * placement_.rounding(bounds()) + 0x1p-49 * magnitude;
   return map;
-}
-
-void PlacedShape::prepare_rows(const Job* job) const {
-  if (!PlacedRows::prepare(rows_, *this, job)) prepare_distance(job);
-}
-
-void PlacedShape::fill_rows(const RowBlock& block) const {
-  if (PlacedRows::fill(rows_, *this, block)) return;
-  RowBoxes(block).fill(
-      bounds(), [this](Vec3 p) { return distance(p); },
-      [this](const Vec3* points, size_t count, uint8_t* inside) {
-        find_inside(points, count, inside);
-      });
 }
 
 void PlacedShape::describe(HashInput& input) const {

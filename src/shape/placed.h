@@ -3,7 +3,6 @@
 // where the original holds the point that the stored inverse maps it to (placement.h).
 #pragma once
 
-#include "base/lazy.h"
 #include "shape/boundary_search.h"
 #include "shape/placed_rows.h"
 #include "shape/placement.h"
@@ -28,7 +27,7 @@ class PlacedShape final : public Shape, private BoundarySearch {
     return placement_.is_similarity() && original_->is_exact_inside();
   }
   void prepare_distance(const Job* job) const override { original_->prepare_distance(job); }
-  void prepare_rows(const Job* job) const override;
+  void prepare_rows(const Job* job) const override { rows_.prepare(*this, job); }
   MeshMap mesh_map() const override;
   /// The depth of stretched shapes is not known: their distance is a bound.
   bool knows_depth() const override {
@@ -46,7 +45,7 @@ class PlacedShape final : public Shape, private BoundarySearch {
   uint64_t self_intersections(const Job* job) const override {
     return original_->self_intersections(job);
   }
-  void fill_rows(const RowBlock& block) const override;
+  void fill_rows(const RowBlock& block) const override { rows_.fill(*this, block); }
   unsigned nesting() const override { return 1 + original_->nesting(); }
   uint64_t terms() const override { return original_->terms(); }
 
@@ -64,7 +63,7 @@ class PlacedShape final : public Shape, private BoundarySearch {
 
   Ref<const Shape> original_;
   const Placement placement_;
-  Lazy<PlacedRows> rows_;  // of closed meshes
+  PlacedRows rows_;
 };
 
 }  // namespace msq

@@ -2,10 +2,13 @@
 #include "shape/placed_rows.h"
 
 #include <cmath>
-#include <limits>
 
 #include "base/infinity.h"
+#include "base/memory.h"
+#include "shape/asked_samples.h"
 #include "shape/crossed_rows.h"
+#include "shape/mesh.h"
+#include "shape/row_boxes.h"
 
 namespace msq {
 
@@ -36,160 +39,86 @@ Polygon part_between(const Vec3 (&corners)[3], double low, double high) {
   return part;
 }
 
-}  // namespace
-
-/// Samples near triangles, batch by batch.
-class PlacedRows::Near {
+/// Asks the samples that are near triangles.
+class NearSamples {
  public:
-  Near(const RowBlock& block, const Shape& definition, const Box3& bounds)
-      : block_(block),
-        grid_(*block.grid),
-        definition_(definition),
-        first_(grid_.first_x_from(bounds.min.x)),
-        end_(grid_.first_x_from<true>(bounds.max.x)),
-        to_index_(1 / grid_.spacing.x) {}
+  /// error: twice that of placed_rows.h, which leaves room for the rounding of what is found here.
+  NearSamples(const RowBlock& block, const Shape& shape, double error)
+      : grid_(*block.grid),
+        error_(error),
+        first_x_(grid_.first_x_from(shape.bounds().min.x)),
+        end_x_(grid_.first_x_from<true>(shape.bounds().max.x)),
+        first_y_(std::max(block.y0, grid_.first_y_from(shape.bounds().min.y))),
+        end_y_(
+            std::max(first_y_, std::min(block.y1, grid_.first_y_from<true>(shape.bounds().max.y)))),
+        to_index_(1 / grid_.spacing.x),
+        asked_(block, shape) {}
 
-  /// Those of row j of layer k from x = low to high.
-  void add(uint64_t j, uint64_t k, double low, double high) {
-    // Indices are below 2^31, so their rounding here is below 2^-18.
-    constexpr double slack = 0x1p-18;
-    const double from = (low - grid_.origin.x) * to_index_,
-                 to = (high - grid_.origin.x) * to_index_;
-    if (std::ceil(from - slack) > to + slack) return;
-    const uint64_t begin = std::max(first_, grid_.first_x_from(low));
-    const uint64_t end = std::min(end_, grid_.first_x_from<true>(high));
-    for (uint64_t i = begin; i < end; ++i) {
-      points_.push_back(grid_.at(i, j, k));
-      places_.push_back({block_.row(j, k), i});
-      if (points_.size() == batch) settle();
-    }
+  void begin_layer(uint64_t k) {
+    k_ = k;
+    z_ = grid_.z(k);
   }
 
-  /// Sets or clears the bits of those that were added.
-  void settle() {
-    if (points_.empty()) return;
-    check_cancelled();
-    inside_.resize(points_.size());
-    definition_.find_inside(points_.data(), points_.size(), inside_.data());
-    for (size_t n = 0; n < points_.size(); ++n) {
-      uint64_t& word = places_[n].row[places_[n].i / bits_per_word];
-      const uint64_t bit = uint64_t{1} << places_[n].i % bits_per_word;
-      word = inside_[n] ? word | bit : word & ~bit;
-    }
-    points_.clear();
-    places_.clear();
+  /// Of the layer.
+  void add(const Vec3 (&corners)[3]) {
+    const double a = corners[0].z - z_, b = corners[1].z - z_, c = corners[2].z - z_;
+    if (std::min({a, b, c}) > error_ || std::max({a, b, c}) < -error_) return;
+    if (std::min({std::abs(a), std::abs(b), std::abs(c)}) <= error_)
+      add_polygon(part_between(corners, z_ - error_, z_ + error_));
+    else if ((a < 0) == (b < 0))
+      add_segment(corners[2], corners[0], corners[1]);
+    else if ((b < 0) == (c < 0))
+      add_segment(corners[0], corners[1], corners[2]);
+    else
+      add_segment(corners[1], corners[2], corners[0]);
   }
+
+  void end_layer() { asked_.ask(); }
 
  private:
-  static constexpr size_t batch = 1024;
-  struct Place {
-    uint64_t* row;
-    uint64_t i;
+  struct Rows {
+    uint64_t begin, end;
   };
-
-  const RowBlock& block_;
-  const SampleGrid& grid_;
-  const Shape& definition_;
-  const uint64_t first_, end_;
-  const double to_index_;
-  std::vector<Vec3> points_;
-  std::vector<Place> places_;
-  std::vector<uint8_t> inside_;
-};
-
-const PlacedRows* PlacedRows::find(const Lazy<PlacedRows>& rows, const Shape& shape,
-                                   const Job* job) {
-  // So a layer lies in two neighbouring bins at most.
-  constexpr double part = 0x1p-20;
-  const MeshMap map = shape.mesh_map();
-  const Vec3 size = map.bounds.extent();
-  if (!map.mesh || !map.mesh->facts().closed || !(map.error <= part * min_component(size)))
-    return nullptr;
-  return &rows.get([&] { return std::make_unique<const PlacedRows>(map, job); });
-}
-
-bool PlacedRows::fill(const Lazy<PlacedRows>& rows, const Shape& shape, const RowBlock& block) {
-  const PlacedRows* const found = find(rows, shape, current_job());
-  if (found) found->fill(block, shape);
-  return found;
-}
-
-// Twice the error leaves room for the rounding of what is found with it.
-PlacedRows::PlacedRows(const MeshMap& map, const Job* job)
-    : mesh_(*map.mesh),
-      is_mirrored_(map.is_mirrored),
-      bounds_(map.bounds),
-      error_(2 * (map.error +
-                  crossing_error(max_magnitude(map.bounds.min) + max_magnitude(map.bounds.max)))) {
-  const uint64_t vertices = mesh_.vertices().size(), triangles = mesh_.triangles().size();
-  constexpr uint64_t bins_of_triangle = 40;
-  reservation_ = Reservation(
-      mesh_.budget(), vertices * sizeof(Vec3) + triangles * (sizeof(Triangle) + bins_of_triangle),
-      "the triangles of a placed mesh");
-  soup_.vertices.reserve(vertices);
-  CancelPoll poll(job);
-  for (const Vec3& v : mesh_.vertices()) {
-    poll();
-    soup_.vertices.push_back(map.place(v));
+  Rows rows(double low, double high) const {
+    return {std::clamp(grid_.first_y_from(low), first_y_, end_y_),
+            std::clamp(grid_.first_y_from<true>(high), first_y_, end_y_)};
   }
-  soup_.triangles = mesh_.triangles();
-  sheets_ = TriangleBins(soup_, bounds_, 1, bins_for(triangles, 1.0, 16384), job);
-}
 
-void PlacedRows::fill(const RowBlock& block, const Shape& definition) const {
-  Near near(block, definition, bounds_);
-  for (uint64_t k = block.z0; k < block.z1; ++k) {
-    check_cancelled();
-    const double z = block.grid->z(k);
-    if (z < bounds_.min.z || z > bounds_.max.z) continue;
-    fill_crossed_rows(soup_, sheets_, bounds_, block, k, [this](int64_t winding) {
-      return mesh_.solid(is_mirrored_ ? -winding : winding);
-    });
-    find_near(block, k, near);
-    near.settle();
-  }
-}
-
-void PlacedRows::find_near(const RowBlock& block, uint64_t k, Near& near) const {
-  const SampleGrid& grid = *block.grid;
-  const double z = grid.z(k), e = error_;
-  const uint64_t first = std::max(block.y0, grid.first_y_from(bounds_.min.y));
-  const uint64_t last = std::min(block.y1, grid.first_y_from<true>(bounds_.max.y));
-  const auto rows = [&](double low, double high) {
-    return std::pair(std::clamp(grid.first_y_from(low), first, std::max(first, last)),
-                     std::clamp(grid.first_y_from<true>(high), first, std::max(first, last)));
-  };
-  // Points of the triangle near the layer are those of its segment in the plane, moved by no more
-  // than the edges do on their way through the planes z - e and z + e.
-  const auto along_segment = [&](const Vec3& lone, const Vec3& b, const Vec3& c) {
+  /// Of a triangle with one corner alone on its side of the plane. Its points near the layer are
+  /// those of its segment in the plane, moved by no more than the edges do on their way through the
+  /// planes z - error and z + error.
+  void add_segment(const Vec3& lone, const Vec3& b, const Vec3& c) {
     const Vec3 to_b = b - lone, to_c = c - lone;
-    const double s = (z - lone.z) / to_b.z, t = (z - lone.z) / to_c.z;
+    const double s = (z_ - lone.z) / to_b.z, t = (z_ - lone.z) / to_c.z;
     const PlanePoint p{lone.x + s * to_b.x, lone.y + s * to_b.y},
         q{lone.x + t * to_c.x, lone.y + t * to_c.y};
-    const double wide_x = e * (1 + std::max(std::abs(to_b.x / to_b.z), std::abs(to_c.x / to_c.z)));
-    const double wide_y = e * (1 + std::max(std::abs(to_b.y / to_b.z), std::abs(to_c.y / to_c.z)));
+    const double wide_x =
+        error_ * (1 + std::max(std::abs(to_b.x / to_b.z), std::abs(to_c.x / to_c.z)));
+    const double wide_y =
+        error_ * (1 + std::max(std::abs(to_b.y / to_b.z), std::abs(to_c.y / to_c.z)));
     const PlanePoint &low = p.y <= q.y ? p : q, &high = p.y <= q.y ? q : p;
     const double slope = high.y > low.y ? (high.x - low.x) / (high.y - low.y) : 0;
-    const auto [j0, j1] = rows(low.y - wide_y, high.y + wide_y);
-    for (uint64_t j = j0; j < j1; ++j) {
-      const double y = grid.y(j);
+    const Rows near = rows(low.y - wide_y, high.y + wide_y);
+    for (uint64_t j = near.begin; j < near.end; ++j) {
+      const double y = grid_.y(j);
       const double from = std::clamp(y - wide_y, low.y, high.y) - low.y,
                    to = std::clamp(y + wide_y, low.y, high.y) - low.y;
       const double x0 = low.x + slope * from;
       // The last part reaches its end, whatever the slope is.
       const double x1 = y + wide_y >= high.y ? high.x : low.x + slope * to;
-      near.add(j, k, std::min(x0, x1) - wide_x, std::max(x0, x1) + wide_x);
+      add_row(j, std::min(x0, x1) - wide_x, std::max(x0, x1) + wide_x);
     }
-  };
-  const auto in_polygon = [&](const Polygon& part) {
+  }
+
+  void add_polygon(const Polygon& part) {
     double low = infinity, high = -infinity;
     for (size_t i = 0; i < part.count; ++i) {
       low = std::min(low, part.points[i].y);
       high = std::max(high, part.points[i].y);
     }
-    const auto [j0, j1] = rows(low - e, high + e);
-    for (uint64_t j = j0; j < j1; ++j) {
-      const double from = grid.y(j) - 2 * e, to = grid.y(j) + 2 * e;
+    const Rows near = rows(low - error_, high + error_);
+    for (uint64_t j = near.begin; j < near.end; ++j) {
+      const double from = grid_.y(j) - 2 * error_, to = grid_.y(j) + 2 * error_;
       double left = infinity, right = -infinity;
       for (size_t i = 0; i < part.count; ++i) {
         const PlanePoint &a = part.points[i], &b = part.points[(i + 1) % part.count];
@@ -202,29 +131,116 @@ void PlacedRows::find_near(const RowBlock& block, uint64_t k, Near& near) const 
           right = std::max(right, x);
         }
       }
-      if (left <= right) near.add(j, k, left - 2 * e, right + 2 * e);
+      if (left <= right) add_row(j, left - 2 * error_, right + 2 * error_);
     }
-  };
-  const auto visit = [&](const TriangleBins::Range& range) {
+  }
+
+  /// The samples of row j from x = low to high.
+  void add_row(uint64_t j, double low, double high) {
+    // Indices are below 2^31, so their rounding here is below 2^-18.
+    constexpr double slack = 0x1p-18;
+    const double from = (low - grid_.origin.x) * to_index_,
+                 to = (high - grid_.origin.x) * to_index_;
+    if (std::ceil(from - slack) > to + slack) return;
+    asked_.add(std::max(first_x_, grid_.first_x_from(low)),
+               std::min(end_x_, grid_.first_x_from<true>(high)), j, k_);
+  }
+
+  const SampleGrid& grid_;
+  const double error_;
+  const uint64_t first_x_, end_x_, first_y_, end_y_;  // of the samples in the shape's bounds
+  const double to_index_;
+  AskedSamples asked_;
+  uint64_t k_ = 0;
+  double z_ = 0;
+};
+
+}  // namespace
+
+class PlacedRows::Triangles {
+ public:
+  /// Of a closed mesh that is much larger than the error; otherwise there are none.
+  Triangles(const MeshMap& map, const Job* job);
+
+  bool exist() const { return mesh_ != nullptr; }
+  void fill(const Shape& shape, const RowBlock& block) const;
+
+ private:
+  const Mesh* mesh_ = nullptr;  // the shape keeps it
+  bool is_mirrored_ = false;
+  Box3 bounds_;
+  double error_ = 0;  // twice that of the header's comment
+  Reservation reservation_;
+  TriangleSoup soup_;
+  TriangleBins sheets_;  // bins of z alone
+};
+
+PlacedRows::Triangles::Triangles(const MeshMap& map, const Job* job) {
+  // So a layer lies in two neighbouring bins at most.
+  constexpr double part = 0x1p-20;
+  if (!map.mesh || !map.mesh->facts().closed ||
+      !(map.error <= part * min_component(map.bounds.extent())))
+    return;
+  mesh_ = map.mesh;
+  is_mirrored_ = map.is_mirrored;
+  bounds_ = map.bounds;
+  error_ = 2 * (map.error +
+                crossing_error(max_magnitude(map.bounds.min) + max_magnitude(map.bounds.max)));
+  const uint64_t vertices = mesh_->vertices().size(), triangles = mesh_->triangles().size();
+  constexpr uint64_t bins_of_triangle = 40;
+  reservation_ = Reservation(
+      mesh_->budget(), vertices * sizeof(Vec3) + triangles * (sizeof(Triangle) + bins_of_triangle),
+      "the triangles of a placed mesh");
+  soup_.vertices.reserve(vertices);
+  CancelPoll poll(job);
+  for (const Vec3& v : mesh_->vertices()) {
+    poll();
+    soup_.vertices.push_back(map.place(v));
+  }
+  soup_.triangles = mesh_->triangles();
+  sheets_ = TriangleBins(soup_, bounds_, 1, bins_for(triangles, 1.0, 16384), job);
+}
+
+void PlacedRows::Triangles::fill(const Shape& shape, const RowBlock& block) const {
+  NearSamples near(block, shape, error_);
+  const auto add = [&](const TriangleBins::Range& range) {
     for (const uint32_t i : range) {
       const Triangle& t = soup_.triangles[i];
-      const Vec3 corners[3] = {soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]};
-      const double a = corners[0].z - z, b = corners[1].z - z, c = corners[2].z - z;
-      if (std::min({a, b, c}) > e || std::max({a, b, c}) < -e) continue;
-      if (std::min({std::abs(a), std::abs(b), std::abs(c)}) <= e)
-        in_polygon(part_between(corners, z - e, z + e));
-      else if ((a < 0) == (b < 0))
-        along_segment(corners[2], corners[0], corners[1]);
-      else if ((b < 0) == (c < 0))
-        along_segment(corners[0], corners[1], corners[2]);
-      else
-        along_segment(corners[1], corners[2], corners[0]);
+      near.add({soup_.vertices[t[0]], soup_.vertices[t[1]], soup_.vertices[t[2]]});
     }
   };
-  const TriangleBins::Range below = sheets_.at(bounds_.min.y, z - e),
-                            above = sheets_.at(bounds_.min.y, z + e);
-  visit(below);
-  if (above.first != below.first) visit(above);
+  for (uint64_t k = block.z0; k < block.z1; ++k) {
+    check_cancelled();
+    const double z = block.grid->z(k);
+    if (z < bounds_.min.z || z > bounds_.max.z) continue;
+    fill_crossed_rows(soup_, sheets_, bounds_, block, k, [this](int64_t winding) {
+      return mesh_->solid(is_mirrored_ ? -winding : winding);
+    });
+    near.begin_layer(k);
+    const TriangleBins::Range below = sheets_.at(bounds_.min.y, z - error_),
+                              above = sheets_.at(bounds_.min.y, z + error_);
+    add(below);
+    if (above.first != below.first) add(above);
+    near.end_layer();
+  }
+}
+
+PlacedRows::PlacedRows() = default;
+PlacedRows::~PlacedRows() = default;
+
+const PlacedRows::Triangles& PlacedRows::triangles(const Shape& shape, const Job* job) const {
+  return triangles_.get([&] { return std::make_unique<const Triangles>(shape.mesh_map(), job); });
+}
+
+void PlacedRows::prepare(const Shape& shape, const Job* job) const {
+  if (!triangles(shape, job).exist()) shape.prepare_distance(job);
+}
+
+void PlacedRows::fill(const Shape& shape, const RowBlock& block) const {
+  if (const Triangles& placed = triangles(shape, current_job()); placed.exist())
+    placed.fill(shape, block);
+  else
+    RowBoxes::fill(shape, block);
 }
 
 }  // namespace msq

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of a closed mesh that an affine map has placed. A point p is inside if the mesh holds the
-// point that p is mapped back to. Rows are filled by the mesh's triangles, placed: their vertices
-// are rounded, and so is the point that p is mapped back to. Let `error` exceed both roundings, and
-// those of the crossings of rows in either frame, together.
+// Rows of a shape that a map has placed: those of a closed mesh by its triangles, placed; those of
+// other shapes by their distance (row_boxes.h).
+//
+// A point p is inside a placed mesh if the mesh holds the point that p is mapped back to. The
+// vertices of placed triangles are rounded, and so is the point that p is mapped back to. Let
+// `error` exceed both roundings, and those of the crossings of rows in either frame, together
+// (mesh_map.h).
 //
 // Move the placed vertices to their exact places, and p to the exact place of the point it is
 // mapped back to. If p is farther than `error` from all placed triangles, no triangle meets p on
@@ -15,41 +18,27 @@
 #pragma once
 
 #include "base/lazy.h"
-#include "base/memory.h"
-#include "base/triangle_soup.h"
-#include "shape/mesh.h"
-#include "shape/triangle_bins.h"
+#include "shape/shape.h"
 
 namespace msq {
 
 class PlacedRows {
  public:
-  /// If a shape is a mesh that can be drawn this way (closed, and much larger than the error), sets
-  /// the bits of the samples that are inside, in a block of zeros. Otherwise returns false. rows:
-  /// made at first use.
-  static bool fill(const Lazy<PlacedRows>& rows, const Shape& shape, const RowBlock& block);
-  /// The same, but only makes them.
-  static bool prepare(const Lazy<PlacedRows>& rows, const Shape& shape, const Job* job) {
-    return find(rows, shape, job) != nullptr;
-  }
+  PlacedRows();
+  ~PlacedRows();
 
-  /// The mesh must live as long. Throws Error(limit) if its budget is exceeded, Error(cancelled) if
-  /// the job, which may be null, is cancelled.
-  PlacedRows(const MeshMap& map, const Job* job);
+  /// Builds what fill() needs; otherwise its first call does. Throws Error(limit) if the memory
+  /// limit is exceeded, Error(cancelled) if the job, which may be null, is cancelled.
+  void prepare(const Shape& shape, const Job* job) const;
+  /// Sets the bits of the samples that are inside the placed shape, always the same one, in a block
+  /// of zeros.
+  void fill(const Shape& shape, const RowBlock& block) const;
 
  private:
-  class Near;
-  static const PlacedRows* find(const Lazy<PlacedRows>& rows, const Shape& shape, const Job* job);
-  void fill(const RowBlock& block, const Shape& definition) const;
-  void find_near(const RowBlock& block, uint64_t k, Near& near) const;
+  class Triangles;
+  const Triangles& triangles(const Shape& shape, const Job* job) const;
 
-  const Mesh& mesh_;
-  const bool is_mirrored_;
-  const Box3 bounds_;
-  const double error_;
-  Reservation reservation_;
-  TriangleSoup soup_;
-  TriangleBins sheets_;  // bins of z alone
+  Lazy<Triangles> triangles_;
 };
 
 }  // namespace msq

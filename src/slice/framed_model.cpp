@@ -5,7 +5,6 @@
 
 #include "base/hash_input.h"
 #include "shape/placed_rows.h"
-#include "shape/row_boxes.h"
 #include "slice/frame_rows.h"
 
 namespace msq {
@@ -78,11 +77,10 @@ class FramedShape final : public Shape {
     return map;
   }
   unsigned nesting() const override { return shape_->nesting(); }
-  uint64_t terms() const override { return shape_->terms(); }
   void prepare_distance(const Job* job) const override { shape_->prepare_distance(job); }
   void prepare_rows(const Job* job) const override {
     if (model_axes_[0] >= 0) return shape_->prepare_rows(job);
-    if (!PlacedRows::prepare(rows_, *this, job)) prepare_distance(job);
+    rows_.prepare(*this, job);
   }
   double depth(Vec3 p) const override { return shape_->depth(frame_.to_model(p)); }
   double depth(Vec3 p, double) const override { return depth(p); }
@@ -91,7 +89,7 @@ class FramedShape final : public Shape {
     return shape_->depth_error() + frame_.rounding(bounds().min) + frame_.rounding(bounds().max);
   }
   void fill_rows(const RowBlock& block) const override {
-    if (model_axes_[0] < 0) return fill_turned_rows(block);
+    if (model_axes_[0] < 0) return rows_.fill(*this, block);
     FrameRows(block, model_axes_).for_each_part([this](const RowBlock& turned) {
       RowBlock layer = turned;
       for (uint64_t k = turned.z0; k < turned.z1; ++k) {
@@ -115,19 +113,10 @@ class FramedShape final : public Shape {
   }
 
  private:
-  void fill_turned_rows(const RowBlock& block) const {
-    if (PlacedRows::fill(rows_, *this, block)) return;
-    RowBoxes(block).fill(
-        bounds(), [this](Vec3 p) { return distance(p); },
-        [this](const Vec3* points, size_t count, uint8_t* inside) {
-          find_inside(points, count, inside);
-        });
-  }
-
   Ref<const Shape> shape_;
   const LayerFrame frame_;
   const std::array<int, 3> model_axes_;
-  Lazy<PlacedRows> rows_;
+  PlacedRows rows_;
 };
 
 /// The grid of a structure, by whose cells sets of points are grouped.

@@ -70,15 +70,8 @@ static void grids_may_be_far_larger_than_the_shape(void** state) {
   for (size_t k = 0; k < 2; ++k) {
     msq_model* model = make_model(context, make_box(context), kinds[k], NULL);
     for (size_t n = 0; n < sizeof reaches / sizeof *reaches; ++n) {
-      msq_points_def grid;
+      const msq_points_def grid = grid_points(-reaches[n], reaches[n], 5);
       uint64_t count = 0;
-      assert_ok(msq_points_def_init(&grid, sizeof grid));
-      grid.kind = MSQ_POINTS_GRID;
-      for (int axis = 0; axis < 3; ++axis) {
-        grid.counts[axis] = 5;
-        grid.origin[axis] = -reaches[n];
-        grid.spacing[axis] = 0.5 * reaches[n];
-      }
       memset(inside, 2, sizeof inside);
       assert_ok(msq_set_membership(model, &grid, NULL, inside, sizeof inside, NULL));
       for (size_t i = 0; i < sizeof inside; ++i) count += inside[i];
@@ -162,6 +155,17 @@ static void cell_sizes_of_a_fill_stay_numbers(void** state) {
   msq_context_release(context);
 }
 
+static double value_at(msq_context* context, const msq_field* field, const double point[3]) {
+  msq_points_def def;
+  double value = -1;
+  assert_ok(msq_points_def_init(&def, sizeof def));
+  def.kind = MSQ_POINTS_ARRAY;
+  def.coordinates = point;
+  def.count = 1;
+  assert_ok(msq_field_evaluate(context, field, &def, &value, 1, NULL));
+  return value;
+}
+
 static void gradients_are_numbers_everywhere(void** state) {
   const double from[3] = {0, 0, 0}, to[3] = {2, -2, 0}, most = 1.7e308;
   msq_context* context = make_context();
@@ -170,13 +174,7 @@ static void gradients_are_numbers_everywhere(void** state) {
   assert_ok(msq_field_gradient(context, from, 3, to, 5, &field));
   for (int n = 0; n < 27; ++n) {
     const double p[3] = {most * (n % 3 - 1), most * (n / 3 % 3 - 1), most * (n / 9 - 1)};
-    msq_points_def point;
-    double value = -1;
-    assert_ok(msq_points_def_init(&point, sizeof point));
-    point.kind = MSQ_POINTS_ARRAY;
-    point.coordinates = p;
-    point.count = 1;
-    assert_ok(msq_field_evaluate(context, field, &point, &value, 1, NULL));
+    const double value = value_at(context, field, p);
     assert_true(value >= 3 && value <= 5);
   }
   msq_field_release(field);
@@ -227,13 +225,7 @@ static void trees_of_distance_fields_are_built_with_them(void** state) {
     if (status == MSQ_OK) {
       const double p[3] = {0.5, 0.5, 0.5};
       const uint64_t held = memory_of(context).bytes;
-      double value;
-      msq_points_def point;
-      assert_ok(msq_points_def_init(&point, sizeof point));
-      point.kind = MSQ_POINTS_ARRAY;
-      point.coordinates = p;
-      point.count = 1;
-      assert_ok(msq_field_evaluate(context, field, &point, &value, 1, NULL));
+      (void)value_at(context, field, p);
       assert_int_equal(memory_of(context).bytes, held);
       msq_field_release(field);
       ++made_count;
@@ -247,6 +239,47 @@ static void trees_of_distance_fields_are_built_with_them(void** state) {
   }
   assert_true(made_count > 0);
   print_message("refused at %llu limits\n", (unsigned long long)refused);
+}
+
+enum { grid_side = 200, grid_samples = grid_side * grid_side * grid_side };
+
+/* A box, and a placed mesh that no sample of the grid's first layers comes near, in a context with
+ * this memory limit. */
+static msq_status ask_box_and_mesh(uint64_t limit, uint8_t* inside) {
+  const double matrix[12] = {0, -1, 0, 4, 1, 0, 0, 0, 0, 0, 1, 100};
+  const msq_points_def grid = grid_points(0, 120, grid_side);
+  msq_context* context = make_context_of(1, 0, limit);
+  msq_shape *cube = make_cube_mesh(context), *placed;
+  msq_model *parts[2], *both;
+  assert_ok(msq_shape_placed(cube, matrix, &placed));
+  parts[0] = make_model(context, make_box(context), NULL, NULL);
+  parts[1] = make_model(context, placed, NULL, NULL);
+  assert_ok(msq_model_regions(context, (const msq_model* const*)parts, 2, &both));
+  memset(inside, 2, grid_samples);
+  const msq_status status = msq_set_membership(both, &grid, NULL, inside, grid_samples, NULL);
+  msq_model_release(both);
+  for (int i = 0; i < 2; ++i) msq_model_release(parts[i]);
+  msq_shape_release(cube);
+  msq_context_release(context);
+  return status;
+}
+
+/* The triangles of a placed mesh are placed before the first sample is answered. */
+static void rows_are_prepared_before_results(void** state) {
+  static uint8_t inside[grid_samples];
+  uint64_t refused = 1 << 12, answered = (uint64_t)1 << 30;
+  (void)state;
+  while (answered - refused > 1) {
+    const uint64_t limit = refused + (answered - refused) / 2;
+    const msq_status status = ask_box_and_mesh(limit, inside);
+    if (status == MSQ_OK) {
+      answered = limit;
+      continue;
+    }
+    assert_int_equal(status, MSQ_E_LIMIT);
+    assert_filled(inside, sizeof inside, 2);
+    refused = limit;
+  }
 }
 
 static msq_context* let_go;
@@ -306,6 +339,7 @@ int main(void) {
       cmocka_unit_test(gradients_are_numbers_everywhere),
       cmocka_unit_test(distances_of_a_field_fit_a_float),
       cmocka_unit_test(trees_of_distance_fields_are_built_with_them),
+      cmocka_unit_test(rows_are_prepared_before_results),
       cmocka_unit_test(contexts_may_go_in_callbacks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,8 +3,9 @@
 // vertices, edges and faces, where all is rounding; on grids whose samples lie in faces, edges and
 // vertices; and on others, for every winding rule. So do layers of meshes in turned frames.
 #include <cmath>
-#include <limits>
+#include <utility>
 
+#include "base/unit.h"
 #include "bit_rows.h"
 #include "meshes.h"
 #include "msq_test.h"
@@ -65,20 +66,21 @@ SampleGrid grid_of(Vec3 origin, Vec3 spacing, uint64_t count) {
   return grid;
 }
 
+/// Orthonormal, right-handed.
+std::array<Vec3, 3> random_axes(Random& random) {
+  const Vec3 u = random.direction(), v = unit_along(cross(u, random.direction()));
+  return {u, v, cross(u, v)};
+}
+
 Placement random_placement(Random& random) {
-  std::array<double, 12> matrix;
-  const Vec3 axis = random.direction();
-  const double angle = random.between(0, 6), c = std::cos(angle), s = std::sin(angle);
+  const std::array<Vec3, 3> axes = random_axes(random);
   const double scale = random.between(0.3, 3) * (random.between(0, 1) < 0.5 ? -1 : 1);
   const double far = random.between(0, 1) < 0.3 ? 1e4 : 2;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const int k = 3 - i - j;
-      const double skew = i == j ? 0 : ((j - i + 3) % 3 == 1 ? -axis[k] : axis[k]);
-      matrix[static_cast<size_t>(4 * i + j)] =
-          scale * ((i == j ? c : 0) + s * skew + (1 - c) * axis[i] * axis[j]);
-    }
-  for (size_t i = 0; i < 3; ++i) matrix[4 * i + 3] = random.between(-far, far);
+  std::array<double, 12> matrix;
+  for (size_t i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) matrix[4 * i + static_cast<size_t>(j)] = scale * axes[i][j];
+    matrix[4 * i + 3] = random.between(-far, far);
+  }
   return Placement(matrix);
 }
 
@@ -135,7 +137,7 @@ void test_any_samples(void**) {
     const Ref<const Shape> shape = placed(soup, rules[n % 4], placement);
     const Box3 box = shape->bounds();
     const uint64_t count = 3 + random.below(40);
-    Vec3 spacing = box.extent() * (1.1 / static_cast<double>(count));
+    const Vec3 spacing = box.extent() * (1.1 / static_cast<double>(count));
     const Vec3 origin = box.min - spacing * random.between(0, 1);
     assert_true(check(*shape, grid_of(origin, spacing, count)) > 0 || count < 10);
   }
@@ -172,10 +174,8 @@ void test_layers_in_frames(void**) {
     const Ref<const Model> model =
         make_ref<Model>(context, mesh, std::vector<Ref<const Structure>>{});
     LayerFrame frame;
-    const Vec3 u = random.direction(), v = cross(u, random.direction());
-    const Vec3 w = v * (1 / length(v));
-    frame.axes = n % 3 == 0 ? std::array<Vec3, 3>{w, u, cross(u, w)}
-                            : std::array<Vec3, 3>{u, w, cross(u, w)};
+    frame.axes = random_axes(random);
+    if (n % 3 == 0) std::swap(frame.axes[0], frame.axes[1]);
     frame.origin = random.in_box({{-9, -9, -9}, {9, 9, 9}});
     const Ref<const Model> framed = make_framed_model(*model, frame);
     const Vec3 vertex = soup.vertices[random.below(soup.vertices.size())];

@@ -3,6 +3,7 @@
 // grid coordinates. Nodes are placed by it; the struts between them are straight.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -72,6 +73,11 @@ class CellPlaces {
   }
   /// A box in grid coordinates that contains the cells, and so the struts between their corners.
   virtual Box3 bounds(const CellBlock& cells) const = 0;
+  /// The number of the cell at a place along an axis, as far as queries and shapes reach: no point
+  /// beyond is inside.
+  static double cell_within_reach(double place) {
+    return std::clamp(std::floor(place), -max_cell_index, max_cell_index);
+  }
   /// Calls take() for blocks of canonical cells, which together have once each cell whose struts
   /// may meet the box, and others.
   using TakeBlock = std::function<void(const CellBlock&)>;

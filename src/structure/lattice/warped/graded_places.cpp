@@ -60,9 +60,8 @@ void GradedPlaces::for_each_block(const Box3& box, const TakeBlock& take) const 
                              ? 1e-6 + 16 * std::max(period_.error(low), period_.error(high)) *
                                           period_.largest() / period_.smallest()
                              : 1e-6;
-    // No point beyond is inside: queries do not reach there, nor do shapes.
-    cells.first[axis] = std::clamp(std::floor(low - slack), -max_cell_index, max_cell_index);
-    cells.last[axis] = std::clamp(std::floor(high + slack), -max_cell_index, max_cell_index);
+    cells.first[axis] = cell_within_reach(low - slack);
+    cells.last[axis] = cell_within_reach(high + slack);
   }
   take(cells);
 }

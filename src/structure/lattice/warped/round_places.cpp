@@ -164,17 +164,13 @@ void RoundPlaces::for_each_block(const Box3& box, const TakeBlock& take) const {
   CellBlock cells;
   cells.first[0] = std::max(0.0, std::floor(image.cells.min.x - slack));
   cells.last[0] = std::min(
-      // No point beyond is inside: queries do not reach there, nor do shapes.
-      std::min(layers_, max_cell_index),
-      std::floor((image.radius.high / dip_ - warp_.shell().inner) / size + slack));
+      layers_, cell_within_reach((image.radius.high / dip_ - warp_.shell().inner) / size + slack));
   if (is_spherical()) {
     cells.first[2] = 0;
     cells.last[2] = warp_.shell().count_polar;
   } else {
-    cells.first[2] =
-        std::clamp(std::floor(image.cells.min.z - slack), -max_cell_index, max_cell_index);
-    cells.last[2] =
-        std::clamp(std::floor(image.cells.max.z + slack), -max_cell_index, max_cell_index);
+    cells.first[2] = cell_within_reach(image.cells.min.z - slack);
+    cells.last[2] = cell_within_reach(image.cells.max.z + slack);
   }
   if (!(cells.first[0] <= cells.last[0])) return;
   const Interval shear_of = shear(cells);
