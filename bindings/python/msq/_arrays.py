@@ -97,6 +97,27 @@ def pointer(array: np.ndarray, kind: Any) -> Any:
     return ctypes.cast(address_of(array), ctypes.POINTER(kind))
 
 
+def start_of(pointer: Any) -> int:
+    """The address in a pointer that C has written. ctypes.cast makes cyclic garbage."""
+    return pointer if isinstance(pointer, int) else ctypes.addressof(pointer.contents)
+
+
+class _Memory:
+    """Memory of an object, which an array keeps as long as it refers to it."""
+
+    def __init__(self, owner: Any, address: int, shape: Sequence[int], kind: str) -> None:
+        self._owner = owner
+        self.__array_interface__ = {"version": 3, "typestr": kind, "shape": tuple(shape),
+                                    "data": (address, True)}
+
+
+def view(owner: Any, pointer: Any, shape: Sequence[int], kind: str) -> np.ndarray:
+    """A read-only array of memory that belongs to an object, which it keeps. kind: as "<f8"."""
+    if 0 in shape:
+        return np.empty(shape, kind)
+    return np.asarray(_Memory(owner, start_of(pointer), shape, kind))
+
+
 def vector(values: Any, dtype: Any, shape: Sequence[int], name: str) -> np.ndarray:
     """A contiguous array of small definitions, copied if need be; -1 in shape is any length."""
     array = np.ascontiguousarray(values)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+from numbers import Number
 from typing import Any, Callable, Generic, NoReturn, TypeVar, Union, cast, overload
 
 import numpy as np
@@ -40,9 +41,10 @@ def _kept(value: Any) -> Any:
 
 
 def _count(value: Any) -> int:
+    """Numbers in a value. Objects are kept, however many there are."""
     if isinstance(value, np.ndarray):
         return value.size
-    return sum(map(_count, value)) if isinstance(value, (list, tuple)) else 1
+    return sum(map(_count, value)) if isinstance(value, (list, tuple)) else isinstance(value, Number)
 
 
 class Given:

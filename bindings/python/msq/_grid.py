@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import address_of, vector
+from ._handle import lend
 from ._library import constant, defaults, lib
 from .context import triple, unsigned
 
@@ -66,7 +67,7 @@ def set_period(definition: Any, period: Optional[Period]) -> Any:
         raise ValueError(f"period has positions of shape {positions.shape} and cell_sizes of shape "
                          f"{cell_sizes.shape}; they must be (n,) both")
     graded = defaults(_abi.msq_period_def)
-    graded.axis = period.axis
+    graded.axis = unsigned(period.axis, 31, "axis")
     graded.positions = positions.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
     graded.cell_sizes = cell_sizes.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
     graded.count = len(positions)
@@ -108,7 +109,9 @@ def set_warp(definition: Any, warp: Optional[AnyWarp]) -> Any:
     warped = defaults(_abi.msq_warp_def)
     if isinstance(warp, SampledWarp):
         warped.kind = _abi.MSQ_WARP_SAMPLED
-        warped.u, warped.v, warped.w = (field._pointer for field in warp)
+        lend(warped, "u", warp.u)
+        lend(warped, "v", warp.v)
+        lend(warped, "w", warp.w)
         definition.warp = ctypes.pointer(warped)
         return warped, warp
     warp = Warp(*warp)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import atexit
 import ctypes
-from typing import Any, ClassVar, Optional, Type, TypeVar
+from typing import Any, ClassVar, Optional, Sequence, Type, TypeVar
 
 from . import _abi
 from ._given import Given
@@ -73,11 +73,6 @@ class Handle:
             raise ValueError(f"this {type(self).__name__} is closed")
         return reference
 
-    @property
-    def _pointer(self) -> Any:
-        """For fields of structs; whoever reads it keeps this object until the call is over."""
-        return self._ref._as_parameter_
-
     def __copy__(self: SelfT) -> SelfT:
         """Another handle of the same object, which is immutable."""
         made = type(self).__new__(type(self))
@@ -109,6 +104,25 @@ class Handle:
 
     def __exit__(self, *_exception: Any) -> None:
         self.close()
+
+
+def lend(target: Any, field: str, handle: Handle) -> None:
+    """Writes a handle to a field of a struct. The memory of the struct keeps the object, which the
+    call needs even if another thread closes the handle meanwhile."""
+    reference = handle._ref
+    setattr(target, field, reference._as_parameter_)
+    while target._b_base_ is not None:
+        target = target._b_base_
+    target.__dict__.setdefault("_lent", []).append(reference)
+
+
+def pointers(handles: Sequence[Handle]) -> Any:
+    """An array of pointers to objects, which it keeps."""
+    references = [handle._ref for handle in handles]
+    array = (type(references[0]._as_parameter_) * len(references))(
+        *(reference._as_parameter_ for reference in references))
+    array._lent = references
+    return array
 
 
 def hash_of(call: Any, handle: Handle) -> str:

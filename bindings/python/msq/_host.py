@@ -18,6 +18,7 @@ from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple, U
 import numpy as np
 
 from . import _abi
+from ._arrays import start_of
 from ._library import keep_exception
 from ._signals import expect_callbacks
 
@@ -27,8 +28,7 @@ _numbers = itertools.count(1)
 
 
 def _view(pointer: Any, kind: Any, count: int) -> np.ndarray:
-    address = ctypes.cast(pointer, ctypes.c_void_p).value
-    return np.frombuffer((kind * count).from_address(address), kind)
+    return np.frombuffer((kind * count).from_address(start_of(pointer)), kind)
 
 
 class HostPoints(NamedTuple):

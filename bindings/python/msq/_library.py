@@ -12,7 +12,7 @@ import os
 import pathlib
 import sys
 import threading
-from typing import Any, List, Sequence, Type, TypeVar
+from typing import Any, List, NoReturn, Sequence, Type, TypeVar
 
 from . import _abi
 from ._words import in_words_of_python
@@ -70,21 +70,25 @@ def keep_exception(error: BaseException) -> int:
         return _last_code
 
 
+def raise_error(status: int, message: str) -> NoReturn:
+    """Raises the exception of a status that a call on this thread returned; of MSQ_E_HOST that which
+    the callback raised, if it raised one."""
+    error: BaseException = BY_STATUS.get(status, Error)(in_words_of_python(message))
+    try:
+        if isinstance(error, HostError):
+            error.code = lib.msq_error_host_code()
+            with _exceptions_lock:
+                error = _exceptions.pop(error.code, error)
+        raise error
+    finally:
+        del error  # its traceback refers to this frame, and so to all that the callers hold
+
+
 def _raise_status(status: int, _function: Any, _arguments: Any) -> int:
-    if status == _abi.MSQ_OK:
-        return status
-    # The message is this thread's, and stays until the next call on it that fails.
-    message = lib.msq_error_message().decode("utf-8", "replace")
-    if status == _abi.MSQ_E_HOST:
-        code = lib.msq_error_host_code()
-        with _exceptions_lock:
-            raised = _exceptions.pop(code, None)
-        if raised is not None:
-            raise raised
-        host_error = HostError(message)
-        host_error.code = code
-        raise host_error
-    raise BY_STATUS.get(status, Error)(in_words_of_python(message))
+    if status != _abi.MSQ_OK:
+        # The message is this thread's, and stays until the next call on it that fails.
+        raise_error(status, lib.msq_error_message().decode("utf-8", "replace"))
+    return status
 
 
 def _load() -> ctypes.CDLL:

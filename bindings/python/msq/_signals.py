@@ -54,8 +54,11 @@ class HeldSignals:
     def raise_held(self) -> None:
         """Raises what is held, if anything is."""
         held, self._held = self._held, None
-        if held is not None:
-            raise held
+        try:
+            if held is not None:
+                raise held
+        finally:
+            del held  # its traceback refers to this frame, and so to all that the callers hold
 
     def _handle(self, number: int, frame: Any) -> None:
         try:

@@ -19,4 +19,5 @@ def in_words_of_python(message: str) -> str:
     """
     message = re.sub(r"^(?:grid|image)\.(?=[a-z])", "", message)
     message = re.sub(r"^([a-z][a-z_]*)_count is\b", _of_count, message)
+    message = re.sub(r"^the file exists and replace is 0\b", "the file exists and replace is False", message)
     return re.sub(r"\bMSQ_(?:FOAM|POINTS)_([A-Z0-9_]+)", lambda found: repr(found[1].lower()), message)

@@ -9,13 +9,13 @@ from typing import Any, List, Optional, Sequence, Union
 import numpy as np
 
 from . import _abi
+from ._arrays import view
 from ._handle import Handle, Reference
 from ._interrupt import build
 from ._library import constant, constant_name, defaults, lib
-from .context import Context, Job, context_of
-from .errors import FileError, with_path
+from .context import Context, Job, c_path, context_of
+from .errors import naming
 from .shape import Shape
-from .strut_graph import _Memory
 from .structure import Beams
 
 
@@ -40,17 +40,12 @@ class BeamLattice:
         lib.msq_beam_file_beams(reference, number, ctypes.byref(definition))
         beams, balls = report.beam_count, report.ball_count
 
-        def view(address: Any, shape: Sequence[int], typestr: str) -> np.ndarray:
-            if 0 in shape:
-                return np.empty(shape, typestr)
-            return np.asarray(_Memory(reference, address, shape, typestr))
-
-        self.nodes = view(definition.nodes, (report.node_count, 3), "<f8")
-        self.beams = view(definition.beams, (beams, 2), "<u4")  #: indices of nodes
-        self.radii = view(definition.radii, (beams, 2), "<f8")  #: at the first and second node
-        self.caps = view(definition.caps, (beams, 2), "|u1")  #: as MSQ_CAP_*
-        self.balls = view(definition.balls, (balls,), "<u4")  #: indices of nodes
-        self.ball_radii = view(definition.ball_radii, (balls,), "<f8")
+        self.nodes = view(reference, definition.nodes, (report.node_count, 3), "<f8")
+        self.beams = view(reference, definition.beams, (beams, 2), "<u4")  #: indices of nodes
+        self.radii = view(reference, definition.radii, (beams, 2), "<f8")  #: at the first and second node
+        self.caps = view(reference, definition.caps, (beams, 2), "|u1")  #: as MSQ_CAP_*
+        self.balls = view(reference, definition.balls, (balls,), "<u4")  #: indices of nodes
+        self.ball_radii = view(reference, definition.ball_radii, (balls,), "<f8")
 
     def structure(self, *, length_scale: float = 0.0, job: Optional[Job] = None) -> Beams:
         """A structure of these beams and balls, not clipped."""
@@ -88,13 +83,11 @@ class BeamFile(Handle):
         and job as in Shape.from_file."""
         context = context_of(context)
         definition = Shape._file("3mf", 1.0, "auto", max_bytes, max_triangles)
-        name = os.fsencode(path)
-        try:
+        name = c_path(path)
+        with naming(path):
             return cls._made(context, build(
                 lambda new: cls._create(new, context._ref, name, ctypes.byref(definition)),
                 lib.msq_beam_file_open, job))
-        except FileError as error:
-            raise with_path(error, path) from None
 
     @classmethod
     def from_memory(cls, data: Any, *, max_bytes: int = 0, max_triangles: int = 0,

@@ -7,8 +7,9 @@ import dataclasses
 import itertools
 import numbers
 import operator
+import os
 import threading
-from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar
+from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar, Union
 
 from . import _abi
 from ._given import parameter, remembers
@@ -234,6 +235,23 @@ def unsigned(value: int, bits: int, name: str) -> int:
     if not 0 <= value < 2**bits:
         raise ValueError(f"{name} is {value}; it must be from 0 to {2**bits - 1}")
     return value
+
+
+def c_text(value: str, name: str) -> bytes:
+    """The text as C takes it, which would end it at a null character."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is {value!r}; it must be a str")
+    if "\0" in value:
+        raise ValueError(f"{name} is {value!r}; it must not contain the null character")
+    return value.encode()
+
+
+def c_path(path: Union[str, bytes, "os.PathLike[str]"]) -> bytes:
+    """The path as C takes it."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError(f"the path is {path!r}; it must not contain the null character")
+    return name
 
 
 def triple(value: Any, name: str) -> Tuple[float, float, float]:

@@ -8,16 +8,16 @@ from typing import Any, Iterator, Optional, Sequence, Tuple
 import numpy as np
 
 from . import _abi
+from ._arrays import view
 from ._handle import Handle, Reference
 from ._interrupt import interruptible
 from ._library import defaults, lib, report
-from .context import Job
+from .context import Job, unsigned
 
 Window = Tuple[Sequence[float], Sequence[float]]  #: (min, max), each u, v
 
 _TYPES = {"int32": _abi.MSQ_INT32, "int64": _abi.MSQ_INT64, "float64": _abi.MSQ_FLOAT64}
-_DTYPES = {_abi.MSQ_INT32: np.int32, _abi.MSQ_INT64: np.int64,
-           _abi.MSQ_FLOAT64: np.float64}
+_KINDS = {_abi.MSQ_INT32: "=i4", _abi.MSQ_INT64: "=i8", _abi.MSQ_FLOAT64: "=f8"}
 
 
 def contours_definition(tolerance: float, *, axis: int, window: Optional[Window], pitch: float,
@@ -28,7 +28,7 @@ def contours_definition(tolerance: float, *, axis: int, window: Optional[Window]
     if type not in _TYPES:
         raise ValueError(f"type is {type!r}; it must be one of {', '.join(map(repr, _TYPES))}")
     definition.type = _TYPES[type]
-    definition.axis = axis
+    definition.axis = unsigned(axis, 31, "axis")
     if window is not None:
         low, high = (tuple(map(float, corner)) for corner in window)
         if len(low) != 2 or len(high) != 2:
@@ -40,7 +40,7 @@ def contours_definition(tolerance: float, *, axis: int, window: Optional[Window]
     definition.pitch = pitch
     definition.units = units
     definition.length_scale = length_scale
-    definition.topology_samples = topology_samples
+    definition.topology_samples = unsigned(topology_samples, 32, "topology_samples")
     return definition
 
 
@@ -91,7 +91,7 @@ class Contours(Handle):
 
     def _read(self) -> None:
         held = report(_abi.msq_contours_report, lib.msq_contours_info, self._ref)
-        count = held.ring_count
+        owner, count = self._ref, held.ring_count
         self.unresolved_count: int = held.unresolved_count  #: see msq_contours_report
         self.pitch: float = held.pitch  #: distance of the nodes
         #: parts that appear, vanish, are cut or joined in the mask of topology_samples, at most; None
@@ -99,23 +99,11 @@ class Contours(Handle):
         self.topology_count: Optional[int] = (held.topology_count if held.topology_samples
                                               else None)
         #: (n, 2): u, v of all rings, one after the other
-        self.points = self._view(held.points, 2 * held.point_count,
-                                 _DTYPES[held.type]).reshape(-1, 2)
+        self.points = view(owner, held.points, (held.point_count, 2), _KINDS[held.type])
         #: ring i has points starts[i] to starts[i + 1] - 1
-        self.starts = self._view(held.starts, count + 1, np.uint64)
-        self.parents = self._view(held.parents, count, np.int64)  #: the ring around it, -1: none
-        self.holes = self._view(held.holes, count, np.uint8).view(np.bool_)
-
-    def _view(self, address: Any, count: int, dtype: Any) -> np.ndarray:
-        if count == 0:
-            return np.empty(0, dtype)
-        size = count * np.dtype(dtype).itemsize
-        memory = (ctypes.c_uint8 * size).from_address(
-            ctypes.cast(address, ctypes.c_void_p).value or 0)
-        memory._owner = self._ref  # lives as long as any view
-        view = np.frombuffer(memory, dtype)
-        view.flags.writeable = False
-        return view
+        self.starts = view(owner, held.starts, (count + 1,), "=u8")
+        self.parents = view(owner, held.parents, (count,), "=i8")  #: the ring around it, -1: none
+        self.holes = view(owner, held.holes, (count,), "|b1")
 
     def __len__(self) -> int:
         return len(self.parents)

@@ -11,8 +11,8 @@ from ._handle import Handle
 from ._interrupt import build
 from ._library import constant, defaults, lib, report
 from .camera import Camera
-from .context import Context, Job, context_of, unsigned
-from .errors import FileError, with_path
+from .context import Context, Job, context_of, c_path, unsigned
+from .errors import naming
 from .model import Model
 from .picture import Picture
 from .slicer import Slicer
@@ -52,15 +52,13 @@ class Document(Handle):
                   max_file_bytes: int = 0, max_triangles: int = 0,
                   context: Optional[Context] = None, job: Optional[Job] = None) -> Document:
         """Reads a file. base_directory: None: that of the file. The rest as in from_json."""
-        name = os.fsencode(path)
+        name = c_path(path)
         context = context_of(context)
         definition = _definition(base_directory, files, max_bytes, max_values, max_depth, max_files,
                                  max_file_bytes, max_triangles)
-        try:
+        with naming(path):
             return build(lambda new: cls._make(context, new, name, ctypes.byref(definition)),
                          lib.msq_document_from_file, job)
-        except FileError as error:
-            raise with_path(error, path) from None
 
     @classmethod
     def _make(cls, context: Context, create: Any, *arguments: Any) -> Document:
@@ -117,7 +115,7 @@ def _definition(base_directory: Optional[Path], files: str, max_bytes: int, max_
     definition = defaults(_abi.msq_document_def)
     definition.files = constant("MSQ_DOCUMENT_FILES_", files, "files")
     if base_directory is not None:
-        definition.base_directory = os.fsencode(base_directory)
+        definition.base_directory = c_path(base_directory)
     definition.max_bytes = unsigned(max_bytes, 64, "max_bytes")
     definition.max_values = unsigned(max_values, 64, "max_values")
     definition.max_depth = unsigned(max_depth, 32, "max_depth")

@@ -6,9 +6,10 @@ a wrong argument is a ValueError too, a missing file a FileNotFoundError.
 """
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
-from typing import Any
+from typing import Any, Iterator, Optional
 
 from . import _abi
 
@@ -45,9 +46,10 @@ class HostError(Error):
 
 
 class FileError(Error, OSError):
-    """A file cannot be opened or read, is truncated, or is malformed.
+    """A file cannot be opened, read or written, is truncated, or is malformed.
 
-    filename is its path. errno is None if the file was read and its content is at fault.
+    filename is its path. errno is None where the system reports no error, but the content of the file
+    is at fault.
     """
 
     status = _abi.MSQ_E_IO
@@ -61,24 +63,47 @@ class MissingFileError(FileError, FileNotFoundError):
 
 
 class FileAccessError(FileError, PermissionError):
-    """The file may not be read."""
+    """The file may not be read or written."""
 
 
 class FolderError(FileError, IsADirectoryError):
     """The path is that of a folder."""
 
 
+class ExistingFileError(FileError, FileExistsError):
+    """The file to be written exists already."""
+
+
 _BY_ERRNO = {errno.ENOENT: MissingFileError, errno.EACCES: FileAccessError,
-             errno.EPERM: FileAccessError, errno.EISDIR: FolderError}
+             errno.EPERM: FileAccessError, errno.EISDIR: FolderError,
+             errno.EEXIST: ExistingFileError}
+
+
+def _errno_in(message: str) -> Optional[int]:
+    """The errno that a message names by its text, at its end or before a path."""
+    if message.startswith("the file exists and replace is "):
+        return errno.EEXIST
+    for number in errno.errorcode:
+        text = f": {os.strerror(number)}"
+        if message.endswith(text) or f"{text}: " in message:
+            return number
+    return None
 
 
 def with_path(error: FileError, path: Any) -> FileError:
     """The error with the path, and with the errno that its message names."""
-    message = str(error)
-    for number in errno.errorcode:
-        if message.endswith(f": {os.strerror(number)}"):
-            return _BY_ERRNO.get(number, FileError)(number, message, os.fspath(path))
-    return FileError(None, message, os.fspath(path))
+    number = _errno_in(str(error))
+    kind = FileError if number is None else _BY_ERRNO.get(number, FileError)
+    return kind(number, str(error), os.fspath(path))
+
+
+@contextlib.contextmanager
+def naming(path: Any) -> Iterator[None]:
+    """Errors of files within `with` get the path."""
+    try:
+        yield
+    except FileError as error:
+        raise with_path(error, path) from None
 
 
 class UnsupportedError(Error, NotImplementedError):

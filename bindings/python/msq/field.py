@@ -12,11 +12,11 @@ from . import _abi
 from ._arrays import output, pointer, vector
 from ._given import remembers
 from ._grid import Cell, set_image
-from ._handle import Handle, hash_of
+from ._handle import Handle, hash_of, lend
 from ._host import HashKey, create
 from ._interrupt import build, interruptible
 from ._library import defaults, lib
-from .context import Context, Job, context_of, doubles, triple
+from .context import Context, Job, context_of, doubles, c_text, triple
 from .points import definition_of
 from .shape import Shape
 
@@ -100,7 +100,7 @@ class Field(Handle):
                    context: Optional[Context] = None) -> Field:
         """An expression in x, y, z, the point's coordinates, cut to low and high."""
         definition = defaults(_abi.msq_expression_field_def)
-        definition.expression = expression.encode()
+        definition.expression = c_text(expression, "expression")
         set_parameters(definition, parameters)
         definition.low, definition.high = low, high
         return cls._make(context_of(context), lib.msq_field_expression, ctypes.byref(definition))
@@ -114,12 +114,12 @@ class Field(Handle):
         apart, whose progress the job reports."""
         pairs = vector(curve, np.float64, (-1, 2), "curve")
         definition = defaults(_abi.msq_shape_distance_field_def)
-        definition.shape = shape._pointer
+        lend(definition, "shape", shape)
         definition.curve = pointer(pairs, ctypes.c_double)
         definition.curve_count = len(pairs)
         definition.step = step
         context = context_of(context, shape)
-        kept = shape, pairs  # as long as the call goes on
+        kept = pairs  # as long as the call goes on
         return build(lambda new, _kept=kept: cls._make(context, new, ctypes.byref(definition)),
                      lib.msq_field_shape_distance, job, step > 0)
 
@@ -154,9 +154,9 @@ Param = Union[float, Field]  #: a number, or a field of it
 
 
 def set_param(target: _abi.msq_param, value: Param) -> None:
-    """Writes a parameter. The caller keeps `value` until what it is for has been made."""
+    """Writes a parameter, as lend() does."""
     if isinstance(value, Field):
-        target.field = value._pointer
+        lend(target, "field", value)
     else:
         target.value = value
         target.field = ctypes.POINTER(_abi.msq_field)()
@@ -166,6 +166,6 @@ def set_parameters(definition: Any, parameters: Optional[Mapping[str, float]]) -
     """Writes the parameters of an expression."""
     named = parameters or {}
     values = (_abi.msq_named_value * len(named))(
-        *(_abi.msq_named_value(name.encode(), value) for name, value in named.items()))
+        *(_abi.msq_named_value(c_text(name, "a parameter's name"), value) for name, value in named.items()))
     definition.parameters = values if named else None
     definition.parameter_count = len(named)

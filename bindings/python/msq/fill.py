@@ -8,22 +8,13 @@ from typing import Any, List, Optional, Sequence
 import numpy as np
 
 from . import _abi
-from ._arrays import address_of, vector
-from ._handle import Handle, Reference
+from ._arrays import address_of, vector, view
+from ._handle import Handle
 from ._interrupt import build
 from ._library import defaults, lib
 from .context import Job
 
 _TYPES = {np.dtype(np.int32): _abi.MSQ_INT32, np.dtype(np.int64): _abi.MSQ_INT64}
-
-
-class _Memory:
-    """Memory of a fill, kept as long as an array refers to it."""
-
-    def __init__(self, reference: Reference, address: Any, shape: Sequence[int], kind: str) -> None:
-        self._reference = reference
-        self.__array_interface__ = {"version": 3, "typestr": kind, "shape": tuple(shape),
-                                    "data": (ctypes.cast(address, ctypes.c_void_p).value or 0, True)}
 
 
 class Fill(Handle):
@@ -73,16 +64,11 @@ class Fill(Handle):
         kind = "<i4" if report.coordinate_type == _abi.MSQ_INT32 else "<i8"
         points, paths = report.point_count, report.path_count
 
-        def view(address: Any, shape: Sequence[int], typestr: str) -> np.ndarray:
-            if 0 in shape:
-                return np.empty(shape, typestr)
-            return np.asarray(_Memory(reference, address, shape, typestr))
-
-        self.points = view(report.points, (points, 2), kind)  #: of all paths, (n, 2)
+        self.points = view(reference, report.points, (points, 2), kind)  #: of all paths, (n, 2)
         #: path i has points[starts[i]:starts[i + 1]]
-        self.starts = view(report.path_starts, (paths + 1,), "<u8")
+        self.starts = view(reference, report.path_starts, (paths + 1,), "<u8")
         #: (n,) of bool: is the last point of path i joined to its first
-        self.is_closed = view(report.closed, (paths,), "|b1")
+        self.is_closed = view(reference, report.closed, (paths,), "|b1")
         self.length = report.length  #: of all paths, in model units
         self.travel = report.travel  #: between the paths, in model units
 

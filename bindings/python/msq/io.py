@@ -28,10 +28,10 @@ import numpy as np
 
 from . import _abi, _io_abi
 from ._arrays import pointer, triples, vector
+from ._handle import lend
 from ._interrupt import interruptible
-from ._library import StructT, constant, defaults, lib
-from ._words import in_words_of_python
-from .context import Job, unsigned
+from ._library import StructT, constant, defaults, lib, raise_error
+from .context import Job, c_path, c_text, unsigned
 from .errors import BY_STATUS, Error, HostError
 from .model import Model
 from .slicer import Slicer
@@ -60,8 +60,7 @@ def _candidates() -> List[str]:
 
 def _raise_status(status: int, _function: Any, _arguments: Any) -> int:
     if status != _abi.MSQ_OK:
-        message = _io.msq_io_error_message().decode("utf-8", "replace")
-        raise BY_STATUS.get(status, Error)(in_words_of_python(message))
+        raise_error(status, _io.msq_io_error_message().decode("utf-8", "replace"))
     return status
 
 
@@ -213,10 +212,10 @@ def save_png(slicer: Slicer, folder: Path, *, level: int = 0, digits: int = 5,
     be written to one folder. threads: that encode; 0: one per core. queue_bytes: of layers that wait.
     """
     definition = _defaults(_io_abi.msq_io_png_def)
-    definition.level = level
+    definition.level = unsigned(level, 31, "level")
     definition.digits = unsigned(digits, 32, "digits")
-    definition.prefix = prefix.encode()
-    path = os.fsencode(folder)
+    definition.prefix = c_text(prefix, "prefix")
+    path = c_path(folder)
     return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
                   lambda given, common, made, _job: _io.msq_io_png_create(
                       given, path, common, ctypes.byref(definition), made))
@@ -241,23 +240,23 @@ def save_sl1(slicer: Slicer, path: Path, *, panel: Panel = Panel(), level: int =
     definition = _defaults(_io_abi.msq_io_sl1_def)
     of_panel = panel._definition()
     definition.panel = ctypes.pointer(of_panel)
-    definition.level = level
-    definition.job = name.encode()
+    definition.level = unsigned(level, 31, "level")
+    definition.job = c_text(name, "name")
     definition.exposure_time = exposure_time
     definition.initial_exposure_time = initial_exposure_time
     definition.faded_layers = unsigned(faded_layers, 32, "faded_layers")
     definition.fast_tilt_time = fast_tilt_time
     definition.slow_tilt_time = slow_tilt_time
     definition.area_fill = area_fill
-    definition.printer_model = printer_model.encode()
-    definition.printer_variant = printer_variant.encode()
-    definition.material = material.encode()
-    definition.settings = settings.encode()
-    definition.created = created
+    definition.printer_model = c_text(printer_model, "printer_model")
+    definition.printer_variant = c_text(printer_variant, "printer_variant")
+    definition.material = c_text(material, "material")
+    definition.settings = c_text(settings, "settings")
+    definition.created = unsigned(created, 63, "created")
     definition.layer_height = layer_height
     if thumbnail is not None:
-        definition.thumbnail_model = thumbnail._pointer
-    file = os.fsencode(path)
+        lend(definition, "thumbnail_model", thumbnail)
+    file = c_path(path)
     return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
                   lambda given, common, made, work: _io.msq_io_sl1_create(
                       given, file, common, ctypes.byref(definition), made, work))
@@ -282,8 +281,8 @@ def save_svg(slicer: Slicer, path: Path, *, layout: str = "stack", units: float 
     definition.units = units
     definition.decimals = unsigned(decimals, 32, "decimals")
     definition.digits = unsigned(digits, 32, "digits")
-    definition.prefix = prefix.encode()
-    name = os.fsencode(path)
+    definition.prefix = c_text(prefix, "prefix")
+    name = c_path(path)
     return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
                   lambda given, common, made, _job: _io.msq_io_svg_create(
                       given, name, common, ctypes.byref(definition), made))
@@ -298,7 +297,7 @@ def save_slices(slicer: Slicer, path: Path, *, units: float = 1.0, layer_height:
     definition = _defaults(_io_abi.msq_io_slices_def)
     definition.units = units
     definition.layer_height = layer_height
-    name = os.fsencode(path)
+    name = c_path(path)
     return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
                   lambda given, common, made, _job: _io.msq_io_slices_create(
                       given, name, common, ctypes.byref(definition), made))
@@ -309,7 +308,7 @@ def save_mesh(model: Model, path: Path, pitch: float, *, format: Optional[str] =
               replace: bool = False, job: Optional[Job] = None) -> None:
     """Writes a preview mesh as binary STL or PLY, as the end of the path says or format. Arguments as
     of Model.mesh. Unlike Model.save_mesh it leaves no part of a file."""
-    name = os.fsencode(path)
+    name = c_path(path)
     if format is None:
         format = os.path.splitext(os.fspath(path))[1][1:].lower()
     if format not in _FORMATS:
@@ -340,7 +339,7 @@ def save_beams(graph: StrutGraph, path: Path, *, vertices: Any = None, triangles
         mesh.triangles, mesh.triangle_count = pointer(corners, ctypes.c_uint32), len(corners)
         definition.mesh = ctypes.pointer(mesh)
         kept += [points, corners, mesh]
-    _io.msq_io_beams_save(graph._ref, ctypes.byref(definition), os.fsencode(path), bool(replace))
+    _io.msq_io_beams_save(graph._ref, ctypes.byref(definition), c_path(path), bool(replace))
 
 
 def save_picture(path: Path, pixels: Any, *, replace: bool = False) -> None:
@@ -353,7 +352,7 @@ def save_picture(path: Path, pixels: Any, *, replace: bool = False) -> None:
     given = np.ascontiguousarray(given)
     height, width = given.shape[:2]
     channels = given.shape[2] if given.ndim == 3 else 1
-    _io.msq_io_picture_save(os.fsencode(path), width, height, channels,
+    _io.msq_io_picture_save(c_path(path), width, height, channels,
                             pointer(given, ctypes.c_uint8), 0, bool(replace))
 
 

@@ -7,9 +7,9 @@ from typing import Any, Optional, Sequence
 
 from . import _abi
 from ._given import remembers
-from ._handle import Handle, hash_of
+from ._handle import Handle, hash_of, lend
 from ._library import defaults, lib
-from .context import Context, context_of, unsigned
+from .context import Context, context_of, c_text, unsigned
 from .field import Param, set_param
 
 
@@ -64,22 +64,17 @@ class Material(Handle):
         return hash_of(lib.msq_material_hash, self)
 
 
-def pointer_of(material: Optional[Material], name: str) -> Any:
-    """A material or None for a field of a struct. The caller keeps it until the call is over."""
+def lend_material(target: Any, field: str, material: Optional[Material]) -> None:
+    """Writes a material to a field of a struct, as lend() does; None leaves it without one."""
     if material is None:
-        return None
+        return
     if not isinstance(material, Material):
-        raise TypeError(f"{name} is a {type(material).__name__}; it must be a Material")
-    return material._pointer
+        raise TypeError(f"{field} is a {type(material).__name__}; it must be a Material")
+    lend(target, field, material)
 
 
 def encoded(names: Sequence[str]) -> Sequence[bytes]:
     """Names of channels as C takes them."""
     if isinstance(names, (str, bytes)):
         raise TypeError(f"channels is {names!r}; it must be a sequence of names")
-    for name in names:
-        if not isinstance(name, str):
-            raise TypeError(f"a channel's name is {name!r}; it must be a str")
-        if "\0" in name:
-            raise ValueError(f"a channel's name is {name!r}; C ends it at the null character")
-    return [name.encode() for name in names]
+    return [c_text(name, "a channel's name") for name in names]

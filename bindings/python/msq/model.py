@@ -12,15 +12,15 @@ import numpy as np
 from . import _abi, picture, statistics, surface
 from ._arrays import output, pointer, triples
 from ._given import parameter, remembers
-from ._handle import Handle, hash_of
+from ._handle import Handle, hash_of, lend, pointers
 from ._interrupt import interruptible
 from ._library import defaults, lib
 from ._signals import held
 from .camera import Camera
-from .context import Context, Job, context_of, doubles, unsigned
+from .context import Context, Job, context_of, doubles, c_path, c_text, unsigned
 from .contours import Contours, Window
 from .field import Param, set_param
-from .material import Material, encoded, pointer_of
+from .material import Material, encoded, lend_material
 from .picture import Picture, RenderPass
 from .points import PointSet, Stratified, definition_of, query_of
 from .shape import Shape
@@ -74,13 +74,13 @@ class Model(Handle):
                 raise TypeError(f"structures have a {type(part).__name__}; it must be a Structure "
                                 "or a Scale of one")
         scales = (_abi.msq_scale_def * (1 + len(parts)))()
-        scales[0].shape = shape._pointer
-        scales[0].material = pointer_of(material, "material")
+        lend(scales[0], "shape", shape)
+        lend_material(scales[0], "material", material)
         for scale, part in zip(list(scales)[1:], parts):
-            scale.structure = part.structure._pointer
+            lend(scale, "structure", part.structure)
             set_param(scale.skin, part.skin)
-            scale.material = pointer_of(part.material, "material")
-            scale.skin_material = pointer_of(part.skin_material, "skin_material")
+            lend_material(scale, "material", part.material)
+            lend_material(scale, "skin_material", part.skin_material)
         definition = defaults(_abi.msq_model_def)
         definition.scales = scales
         definition.scale_count = len(scales)
@@ -100,8 +100,8 @@ class Model(Handle):
         if not models:
             raise ValueError("a model of no regions; there must be at least one")
         context = context_of(context, models[0])
-        pointers = (type(models[0]._pointer) * len(models))(*(m._pointer for m in models))
-        made = cls._wrap(cls._create(lib.msq_model_regions, context._ref, pointers, len(models)))
+        made = cls._wrap(cls._create(lib.msq_model_regions, context._ref, pointers(models),
+                                     len(models)))
         made.context = context
         return made
 
@@ -124,16 +124,16 @@ class Model(Handle):
         0: a million."""
         definition = defaults(_abi.msq_json_def)
         if title is not None:
-            definition.title = title.encode()
+            definition.title = c_text(title, "title")
         if base_directory is not None:
-            definition.base_directory = os.fsencode(base_directory)
+            definition.base_directory = c_path(base_directory)
         definition.max_numbers = unsigned(max_numbers, 64, "max_numbers")
         size = ctypes.c_uint64()
         given = ctypes.byref(definition)
         lib.msq_model_to_json(self._ref, given, None, 0, ctypes.byref(size))
-        text = ctypes.create_string_buffer(size.value + 1)
-        lib.msq_model_to_json(self._ref, given, text, len(text), ctypes.byref(size))
-        return text.value.decode()
+        written = ctypes.create_string_buffer(size.value + 1)
+        lib.msq_model_to_json(self._ref, given, written, len(written), ctypes.byref(size))
+        return written.value.decode()
 
     @property
     def hash(self) -> str:

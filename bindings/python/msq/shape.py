@@ -13,12 +13,13 @@ from . import _abi
 from ._arrays import pointer, triples, vector
 from ._given import remembers
 from ._grid import Cell, affine, set_image
-from ._handle import Handle, hash_of
+from ._handle import Handle, hash_of, pointers
 from ._host import HashKey, create
 from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib, report
-from .context import Context, Job, context_of, doubles, record, triple, unsigned
-from .errors import FileError, with_path
+from .context import (Context, Job, context_of, doubles, c_path, record, triple,
+                      unsigned)
+from .errors import naming
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,12 +71,10 @@ class Shape(Handle):
         """
         context = context_of(context)
         definition = cls._file(format, unit_mm, winding, max_bytes, max_triangles)
-        name = os.fsencode(path)
-        try:
+        name = c_path(path)
+        with naming(path):
             return build(lambda new: cls._make(context, new, name, ctypes.byref(definition)),
                          lib.msq_shape_from_file, job)
-        except FileError as error:
-            raise with_path(error, path) from None
 
     @classmethod
     @remembers
@@ -234,10 +233,9 @@ class Shape(Handle):
                 raise TypeError(f"a shape is a {type(shape).__name__}; it must be a Shape")
         if not shapes:
             raise ValueError(f"a {operation} of no shapes; there must be at least one")
-        pointers = (type(shapes[0]._pointer) * len(shapes))(*(s._pointer for s in shapes))
         return shapes[0]._made_of(lib.msq_shape_boolean,
-                                  constant("MSQ_BOOLEAN_", operation, "operation"), pointers,
-                                  len(shapes))
+                                  constant("MSQ_BOOLEAN_", operation, "operation"),
+                                  pointers(shapes), len(shapes))
 
     def _made_of(self, create: Any, *arguments: Any) -> Shape:
         made = self._wrap(self._create(create, *arguments))

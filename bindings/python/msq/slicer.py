@@ -18,7 +18,7 @@ from ._handle import Handle
 from ._interrupt import interruptible
 from ._library import constant, defaults, keep_exception, lib, report
 from ._signals import HeldSignals
-from .context import Job, job_reference, triple, unsigned
+from .context import Job, job_reference, c_text, triple, unsigned
 from .contours import Contours, Window, contours_definition
 from .errors import HostError
 from .printability import Printability, inspect
@@ -67,7 +67,7 @@ class Output:
         definition.onset_scale = unsigned(scale, 32, "scale")
         definition.onset_value = _abi.MSQ_ONSET_SIGNED if signed else _abi.MSQ_ONSET_PLAIN
         if channel is not None:
-            definition.channel = channel.encode()
+            definition.channel = c_text(channel, "channel")
         if tolerance is not None:
             self._contours = contours_definition(tolerance, axis=2, window=window, pitch=pitch,
                                                  type=type, units=units, length_scale=0.0)

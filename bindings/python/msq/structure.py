@@ -13,11 +13,11 @@ from . import _abi, statistics
 from ._arrays import Elements, elements, output, pointer, triples, vector
 from ._given import parameter, remembers
 from ._grid import AnyWarp, Cell, Period, set_grid, set_period, set_warp
-from ._handle import Handle, hash_of
+from ._handle import Handle, hash_of, pointers
 from ._host import HashKey, HostPoints, create
 from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib
-from .context import Context, Job, context_of, doubles, record, triple, unsigned
+from .context import Context, Job, context_of, doubles, record, c_text, triple, unsigned
 from .field import Param, set_param, set_parameters
 from .fill import Fill
 from .points import Stratified, definition_of
@@ -46,48 +46,48 @@ class Structure(Handle):
         self._reference = self._create(create, context._ref, ctypes.byref(definition))
         self.context = context
 
-    @staticmethod
+    @classmethod
     @remembers
-    def union(*structures: Structure) -> Structure:
+    def union(cls, *structures: Structure) -> Structure:
         """Points in any of the structures."""
         return Structure._boolean("union", structures)
 
-    @staticmethod
+    @classmethod
     @remembers
-    def intersection(*structures: Structure) -> Structure:
+    def intersection(cls, *structures: Structure) -> Structure:
         """Points in all of the structures."""
         return Structure._boolean("intersection", structures)
 
-    @staticmethod
+    @classmethod
     @remembers
-    def difference(*structures: Structure) -> Structure:
+    def difference(cls, *structures: Structure) -> Structure:
         """Points of the first structure that are in no other."""
         return Structure._boolean("difference", structures)
 
-    @staticmethod
+    @classmethod
     @remembers
-    def blend(a: Structure, b: Structure, fraction: Param) -> Structure:
+    def blend(cls, a: Structure, b: Structure, fraction: Param) -> Structure:
         """A structure that becomes another one: a where the fraction is 0, b where it is 1. In between
         it holds the points where (1 - f) times the signed distance of a plus f times that of b is
         at most 0."""
         return Structure._of_two(lib.msq_structure_blend, (), a, b, fraction)
 
-    @staticmethod
+    @classmethod
     @remembers
-    def smooth_union(a: Structure, b: Structure, radius: Param) -> Structure:
+    def smooth_union(cls, a: Structure, b: Structure, radius: Param) -> Structure:
         """Points in a or b, and fillets where both surfaces are nearer than the radius."""
         return Structure._smooth("union", a, b, radius)
 
-    @staticmethod
+    @classmethod
     @remembers
-    def smooth_intersection(a: Structure, b: Structure, radius: Param) -> Structure:
+    def smooth_intersection(cls, a: Structure, b: Structure, radius: Param) -> Structure:
         """Points in a and b, with edges that are rounded where both surfaces are nearer than the
         radius."""
         return Structure._smooth("intersection", a, b, radius)
 
-    @staticmethod
+    @classmethod
     @remembers
-    def smooth_difference(a: Structure, b: Structure, radius: Param) -> Structure:
+    def smooth_difference(cls, a: Structure, b: Structure, radius: Param) -> Structure:
         """Points of a that are not in b, with edges that are rounded where both surfaces are nearer
         than the radius."""
         return Structure._smooth("difference", a, b, radius)
@@ -127,11 +127,9 @@ class Structure(Handle):
                                 "Structure")
         if not structures:
             raise ValueError(f"a {operation} of no structures; there must be at least one")
-        pointers = (type(structures[0]._pointer) * len(structures))(
-            *(s._pointer for s in structures))
         made = Structure._wrap(Structure._create(
-            lib.msq_structure_boolean, constant("MSQ_BOOLEAN_", operation, "operation"), pointers,
-            len(structures)))
+            lib.msq_structure_boolean, constant("MSQ_BOOLEAN_", operation, "operation"),
+            pointers(structures), len(structures)))
         made.context = structures[0].context
         return made
 
@@ -514,7 +512,7 @@ class Functional(Structure):
             definition.function = constant("MSQ_FUNCTION_", function or "", "function")
         else:
             definition.function = _abi.MSQ_FUNCTION_EXPRESSION
-            definition.expression = expression.encode()
+            definition.expression = c_text(expression, "expression")
         set_parameters(definition, parameters)
         kept = set_period(definition, period), set_warp(definition, warp)
         self._make(context_of(context, level, thickness), lib.msq_structure_functional, definition)

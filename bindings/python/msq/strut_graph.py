@@ -8,20 +8,12 @@ from typing import Any, Optional, Sequence
 import numpy as np
 
 from . import _abi
-from ._handle import Handle, Reference
+from ._arrays import view
+from ._handle import Handle, lend
 from ._interrupt import build
 from ._library import defaults, lib
 from .context import Job
 from .shape import Shape
-
-
-class _Memory:
-    """Memory of a graph, kept as long as an array refers to it."""
-
-    def __init__(self, reference: Reference, address: Any, shape: Sequence[int], kind: str) -> None:
-        self._reference = reference
-        self.__array_interface__ = {"version": 3, "typestr": kind, "shape": tuple(shape),
-                                    "data": (ctypes.cast(address, ctypes.c_void_p).value or 0, True)}
 
 
 class StrutGraph(Handle):
@@ -42,7 +34,8 @@ class StrutGraph(Handle):
         definition.selection = _abi.MSQ_STRUTS_NEAR if near else _abi.MSQ_STRUTS_OWNED
         definition.min[:] = [float(c) for c in min]
         definition.max[:] = [float(c) for c in max]
-        definition.shape = None if shape is None else shape._pointer
+        if shape is not None:
+            lend(definition, "shape", shape)
         graph = cls._wrap(build(
             lambda create: cls._create(create, context, structure, ctypes.byref(definition)),
             lib.msq_structure_strut_graph, job))
@@ -56,19 +49,14 @@ class StrutGraph(Handle):
         lib.msq_strut_graph_info(reference, ctypes.byref(report))
         nodes, struts = report.node_count, report.strut_count
 
-        def view(address: Any, shape: Sequence[int], typestr: str) -> np.ndarray:
-            if 0 in shape:
-                return np.empty(shape, typestr)
-            return np.asarray(_Memory(reference, address, shape, typestr))
-
-        self.nodes = view(report.nodes, (nodes, 3), "<f8")  #: positions
-        self.node_ids = view(report.node_ids, (nodes, 2), "<u8")  #: equal in every box
-        self.struts = view(report.struts, (struts, 2), "<u4")  #: indices of nodes
-        self.radii = view(report.radii, (struts, 2), "<f8")  #: at the first and the second node
-        self.strut_ids = view(report.strut_ids, (struts, 2), "<u8")
-        self.cells = view(report.cells, (struts, 3), "<i4")  #: that own the struts; beams: 0
-        self.caps = view(report.caps, (struts, 2), "|u1")  #: as MSQ_CAP_*
-        self.cuts = view(report.cuts, (struts, 2), "|b1")  #: does it leave the shape at that end
+        self.nodes = view(reference, report.nodes, (nodes, 3), "<f8")  #: positions
+        self.node_ids = view(reference, report.node_ids, (nodes, 2), "<u8")  #: equal in every box
+        self.struts = view(reference, report.struts, (struts, 2), "<u4")  #: indices of nodes
+        self.radii = view(reference, report.radii, (struts, 2), "<f8")  #: at the first and the second node
+        self.strut_ids = view(reference, report.strut_ids, (struts, 2), "<u8")
+        self.cells = view(reference, report.cells, (struts, 3), "<i4")  #: that own the struts; beams: 0
+        self.caps = view(reference, report.caps, (struts, 2), "|u1")  #: as MSQ_CAP_*
+        self.cuts = view(reference, report.cuts, (struts, 2), "|b1")  #: does it leave the shape at that end
 
     @property
     def vtk_lines(self) -> np.ndarray:

@@ -9,6 +9,7 @@ from typing import Any, BinaryIO, Dict, List, NamedTuple, Optional, Sequence, Tu
 import numpy as np
 
 from . import _abi
+from ._arrays import start_of
 from ._interrupt import interruptible
 from ._library import defaults, keep_exception, lib
 from .context import Job, unsigned
@@ -71,8 +72,7 @@ def mesh(model: Any, definition: _abi.msq_surface_def, job: Optional[Job]) -> Me
         if count == 0:
             return np.empty((0, 3), dtype)
         size = 3 * count * np.dtype(dtype).itemsize
-        memory = (ctypes.c_uint8 * size).from_address(
-            ctypes.cast(address, ctypes.c_void_p).value or 0)
+        memory = (ctypes.c_uint8 * size).from_address(start_of(address))
         return np.frombuffer(memory, dtype).reshape(count, 3).copy()
 
     def take(_user: Any, pointer_to_slab: Any) -> int:

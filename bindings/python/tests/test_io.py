@@ -224,7 +224,7 @@ class Complete(unittest.TestCase):
             if name.endswith("_def") and name not in vars(_abi):
                 for label, _ in kind._fields_:
                     if label not in ("struct_size", "reserved"):
-                        self.assertRegex(text, rf"\.{label}\b", f"{name}.{label}")
+                        self.assertRegex(text, rf"\.{label}\b|\"{label}\"", f"{name}.{label}")
 
     def test_layout(self):
         self.assertEqual(ctypes.sizeof(_io_abi.msq_io_writer_def), 40)

@@ -127,7 +127,7 @@ class StructuresOfStructures(unittest.TestCase):
             np.testing.assert_array_equal(found[x <= 2], plain[x <= 2])
             changed = found != plain
             self.assertTrue(np.any(changed))
-            self.assertTrue(np.all(found[changed] == (made is msq.Structure.smooth_union)))
+            self.assertTrue(np.all(found[changed] == (made == msq.Structure.smooth_union)))
         with self.assertRaisesRegex(TypeError, "a is a int"):
             msq.Structure.smooth_union(3, self.lattice, 0.5)
         with self.assertRaisesRegex(msq.ArgumentError, "radius"):
