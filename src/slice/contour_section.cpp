@@ -261,7 +261,8 @@ void ContourSection::locate_some(ContourPoints& points, const std::vector<Edge>&
       Search& s = searches[open[n]];
       const double middle = s.middle();
       open[kept] = open[n];
-      kept += std::abs(s.ends[inside[n] ^ 1] - middle) > accuracy;
+      // Not if there is no number between the ends, however small the accuracy is.
+      kept += (std::abs(s.ends[inside[n] ^ 1] - middle) > accuracy) & (s.ends[inside[n]] != middle);
       s.ends[inside[n]] = middle;
     }
     open.resize(kept);

@@ -315,6 +315,34 @@ static void memory_of_details_is_counted(void** state) {
   assert_true(peaks[1] > peaks[0] + 64 * (points[1] - points[0]));
 }
 
+/* Crossings are found to the spacing of numbers, if the tolerance asks for more. */
+static void tolerances_below_the_spacing_of_numbers_end(void** state) {
+  (void)state;
+  static const double cases[][4] = {/* radius, x of the centre, pitch, tolerance */
+                                    {10, 0, 0.5, 1e-12},
+                                    {0.05, 1e6, 1e-3, 1e-8},
+                                    {50, 1e11, 1, 0.01},
+                                    {50, 1e12, 1, 0.1}};
+  msq_context* context = make_context();
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    const double centre[3] = {cases[i][1], 0, 0}, radius = cases[i][0];
+    msq_shape* ball;
+    assert_ok(msq_shape_from_sphere(context, centre, radius, &ball));
+    msq_model* model = make_shape_model(context, ball);
+    msq_contours_def def = contours_def(MSQ_FLOAT64, cases[i][3]);
+    def.pitch = cases[i][2];
+    msq_contours* contours;
+    assert_ok(msq_layer_contours(model, 0, &def, &contours, NULL));
+    const msq_contours_report report = contents_of(contours);
+    assert_int_equal(report.ring_count, 1);
+    const double area = acos(-1) * radius * radius;
+    assert_true(fabs(area_of(&report) - area) <= 0.01 * area);
+    msq_contours_release(contours);
+    msq_model_release(model);
+  }
+  msq_context_release(context);
+}
+
 static void release_of_null_does_nothing(void** state) {
   (void)state;
   msq_contours_retain(NULL);
@@ -332,6 +360,7 @@ int main(void) {
       cmocka_unit_test(memory_is_limited),
       cmocka_unit_test(memory_of_planes_is_counted),
       cmocka_unit_test(memory_of_details_is_counted),
+      cmocka_unit_test(tolerances_below_the_spacing_of_numbers_end),
       cmocka_unit_test(release_of_null_does_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
