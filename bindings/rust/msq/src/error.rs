@@ -4,7 +4,7 @@ use std::any::Any;
 use std::ffi::CStr;
 use std::fmt;
 use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 use crate::sys;
 
@@ -25,7 +25,8 @@ impl Error {
         self.status
     }
 
-    /// With `MSQ_E_HOST`: the code that a closure returned; 0 if it returned an invalid value.
+    /// With `MSQ_E_HOST`: the code that a closure returned as its error. 0 also means that a closure
+    /// wrote an invalid value.
     pub fn host_code(&self) -> i32 {
         self.host_code
     }
@@ -38,6 +39,10 @@ impl Error {
     pub(crate) fn argument(message: String) -> Error {
         Error { status: sys::MSQ_E_ARGUMENT, host_code: 0, message }
     }
+
+    pub(crate) fn memory(message: String) -> Error {
+        Error { status: sys::MSQ_E_MEMORY, host_code: 0, message }
+    }
 }
 
 impl fmt::Display for Error {
@@ -49,23 +54,60 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// A panic left a closure: the code that msq carries for it. Others are the host's own codes.
-const PANICKED: i32 = i32::MIN;
+/// The first code that stands for a `Stop`. The others are below it.
+const FIRST_CODE: i32 = -(1 << 30);
 
-/// The last panic of a closure. Of closures that panic at the same time, one is resumed.
-static PANIC: Mutex<Option<Box<dyn Any + Send>>> = Mutex::new(None);
+/// How a closure stopped a call, where msq cannot carry the closure's own code.
+enum Stop {
+    Panic(Box<dyn Any + Send>),
+    /// 0, which is no error for msq, or one of the codes from `FIRST_CODE` on.
+    Code(i32),
+}
+
+/// Stops on their way through C, each under a code of its own, by which the call that it makes fail
+/// finds it. Closures that stop one call on several threads leave those that the call does not
+/// report, so the oldest give way.
+struct Stops {
+    last_code: i32,
+    kept: Vec<(i32, Stop)>,
+}
+
+const MAX_STOPS: usize = 256;
+
+static STOPS: Mutex<Stops> = Mutex::new(Stops { last_code: FIRST_CODE, kept: Vec::new() });
+
+impl Stops {
+    /// Returns the code, and the stop that gives way.
+    fn keep(&mut self, stop: Stop) -> (i32, Option<(i32, Stop)>) {
+        let oldest = (self.kept.len() == MAX_STOPS).then(|| self.kept.remove(0));
+        self.last_code = if self.last_code == i32::MIN { FIRST_CODE } else { self.last_code - 1 };
+        self.kept.push((self.last_code, stop));
+        (self.last_code, oldest)
+    }
+
+    fn take(&mut self, code: i32) -> Option<Stop> {
+        let at = self.kept.iter().rposition(|(kept, _)| *kept == code)?;
+        Some(self.kept.remove(at).1)
+    }
+}
+
+fn keep(stop: Stop) -> i32 {
+    // What gives way is dropped without the lock: the drop of a panic's value may call msq.
+    let (code, _oldest) = STOPS.lock().unwrap_or_else(PoisonError::into_inner).keep(stop);
+    code
+}
+
+fn take(code: i32) -> Option<Stop> {
+    STOPS.lock().unwrap_or_else(PoisonError::into_inner).take(code)
+}
 
 /// Runs a closure for msq, and returns the code that msq takes.
 pub(crate) fn guarded(run: impl FnOnce() -> std::result::Result<(), i32>) -> i32 {
     match catch_unwind(AssertUnwindSafe(run)) {
         Ok(Ok(())) => 0,
+        Ok(Err(code)) if code == 0 || code <= FIRST_CODE => keep(Stop::Code(code)),
         Ok(Err(code)) => code,
-        Err(panic) => {
-            if let Ok(mut last) = PANIC.lock() {
-                *last = Some(panic);
-            }
-            PANICKED
-        }
+        Err(panic) => keep(Stop::Panic(panic)),
     }
 }
 
@@ -74,14 +116,16 @@ pub fn check(status: sys::msq_status) -> Result<()> {
     if status == sys::MSQ_OK {
         return Ok(());
     }
-    let mut host_code = 0;
-    if status == sys::MSQ_E_HOST {
-        host_code = unsafe { sys::msq_error_host_code() };
-        if host_code == PANICKED {
-            let panic = PANIC.lock().ok().and_then(|mut last| last.take());
-            resume_unwind(panic.unwrap_or_else(|| Box::new("a closure of msq panicked")));
+    let host_code = if status == sys::MSQ_E_HOST { unsafe { sys::msq_error_host_code() } } else { 0 };
+    match take(host_code) {
+        Some(Stop::Panic(panic)) => resume_unwind(panic),
+        Some(Stop::Code(code)) => {
+            let message = format!("a closure returned the error {code}");
+            Err(Error { status, host_code: code, message })
+        }
+        None => {
+            let message = unsafe { CStr::from_ptr(sys::msq_error_message()) };
+            Err(Error { status, host_code, message: message.to_string_lossy().into_owned() })
         }
     }
-    let message = unsafe { CStr::from_ptr(sys::msq_error_message()) };
-    Err(Error { status, host_code, message: message.to_string_lossy().into_owned() })
 }

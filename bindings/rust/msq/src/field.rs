@@ -2,8 +2,8 @@
 //! Fields: numbers that vary in space.
 use std::ffi::CString;
 use std::os::raw::c_void;
-use std::slice;
 
+use crate::array::{elements, elements_mut, product};
 use crate::context::Context;
 use crate::error::guarded;
 use crate::{sys, Error, Result};
@@ -13,7 +13,7 @@ handle!(
     Field, msq_field, msq_field_retain, msq_field_release
 );
 
-/// Writes `values[i]`, the value at `points[i]`. An error is the host's code, not 0.
+/// Writes `values[i]`, the value at `points[i]`. An error stops the call with the host's code.
 pub type ValuesFn =
     Box<dyn Fn(&[[f64; 3]], &mut [f64]) -> std::result::Result<(), i32> + Send + Sync>;
 
@@ -24,8 +24,8 @@ unsafe extern "C" fn evaluate(
     values: *mut f64,
 ) -> i32 {
     let function = &*(user as *const ValuesFn);
-    let points = slice::from_raw_parts(points as *const [f64; 3], count as usize);
-    let values = slice::from_raw_parts_mut(values, count as usize);
+    let points = elements(points as *const [f64; 3], count as usize);
+    let values = elements_mut(values, count as usize);
     guarded(|| function(points, values))
 }
 
@@ -57,7 +57,7 @@ impl Field {
         origin: [f64; 3],
         spacing: [f64; 3],
     ) -> Result<Field> {
-        if size.iter().product::<u64>() != values.len() as u64 {
+        if product(size) != Some(values.len() as u64) {
             return Err(Error::argument(format!(
                 "there are {} values; size has {} x {} x {}",
                 values.len(),

@@ -9,6 +9,7 @@ pub use msq_sys as sys;
 
 #[macro_use]
 mod handle;
+mod array;
 mod context;
 mod document;
 mod error;

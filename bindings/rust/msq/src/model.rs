@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //! Models and queries.
 use std::os::raw::c_void;
-use std::{ptr, slice};
+use std::ptr;
 
+use crate::array::{elements, filled, product};
 use crate::context::{raw_job, Context, Job};
 use crate::error::guarded;
 use crate::field::Param;
@@ -40,19 +41,11 @@ where
     guarded(|| {
         function(MeshSlab {
             first_vertex: slab.first_vertex,
-            vertices: rows(slab.vertices, vertices),
-            normals: rows(slab.normals, vertices),
-            triangles: rows(slab.triangles, triangles),
+            vertices: elements(slab.vertices as *const [f64; 3], vertices),
+            normals: elements(slab.normals as *const [f32; 3], vertices),
+            triangles: elements(slab.triangles as *const [u32; 3], triangles),
         })
     })
-}
-
-/// count triples; none where the pointer may be NULL.
-unsafe fn rows<'a, T>(data: *const T, count: usize) -> &'a [[T; 3]] {
-    if count == 0 {
-        return &[];
-    }
-    slice::from_raw_parts(data as *const [T; 3], count)
 }
 
 impl Model {
@@ -135,8 +128,7 @@ impl Model {
         def.origin = grid.origin;
         def.spacing = grid.spacing;
         def.counts = grid.counts;
-        let count = grid.counts.iter().try_fold(1u64, |all, n| all.checked_mul(*n));
-        let count = count.ok_or_else(|| {
+        let count = product(grid.counts).ok_or_else(|| {
             crate::Error::argument(format!("a grid of {:?} points is too large", grid.counts))
         })?;
         self.set_membership(&def, count, job)
@@ -148,35 +140,22 @@ impl Model {
         count: u64,
         job: Option<&Job>,
     ) -> Result<Vec<u8>> {
-        let mut inside = vec![0; count as usize];
-        check(unsafe {
-            sys::msq_set_membership(
-                self.as_ptr(),
-                points,
-                ptr::null(),
-                inside.as_mut_ptr(),
-                count,
-                raw_job(job),
-            )
-        })?;
-        Ok(inside)
+        filled(count, |inside| {
+            check(unsafe {
+                sys::msq_set_membership(self.as_ptr(), points, ptr::null(), inside, count, raw_job(job))
+            })
+        })
     }
 
     /// Signed distances, exact or a lower bound as msq_set_distance says.
     pub fn distance(&self, points: &[[f64; 3]], job: Option<&Job>) -> Result<Vec<f64>> {
         let def = array(points)?;
-        let mut distances = vec![0.0; points.len()];
-        check(unsafe {
-            sys::msq_set_distance(
-                self.as_ptr(),
-                &def,
-                ptr::null(),
-                distances.as_mut_ptr(),
-                distances.len() as u64,
-                raw_job(job),
-            )
-        })?;
-        Ok(distances)
+        let count = points.len() as u64;
+        filled(count, |distances| {
+            check(unsafe {
+                sys::msq_set_distance(self.as_ptr(), &def, ptr::null(), distances, count, raw_job(job))
+            })
+        })
     }
 
     /// Triangles of the boundary at a pitch, in slabs. An error of the closure is the host's code.

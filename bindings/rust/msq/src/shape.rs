@@ -24,14 +24,21 @@ impl Shape {
         })
     }
 
-    /// Reads a mesh file from memory.
-    pub fn from_memory(context: &Context, bytes: &[u8], job: Option<&Job>) -> Result<Shape> {
+    /// Reads the bytes of a mesh file in millimetres. format: an `MSQ_FORMAT_*` other than AUTO.
+    pub fn from_memory(
+        context: &Context,
+        bytes: &[u8],
+        format: i32,
+        job: Option<&Job>,
+    ) -> Result<Shape> {
+        let mut def = definition!(msq_file_def_init, msq_file_def);
+        def.format = format;
         Shape::make(|raw| unsafe {
             sys::msq_shape_from_memory(
                 context.as_ptr(),
                 bytes.as_ptr() as *const _,
                 bytes.len() as u64,
-                ptr::null(),
+                &def,
                 raw,
                 raw_job(job),
             )

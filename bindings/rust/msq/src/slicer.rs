@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //! Layers.
 use std::os::raw::c_void;
-use std::slice;
 
+use crate::array::{elements, filled};
 use crate::context::{raw_job, Job};
 use crate::error::guarded;
 use crate::model::Model;
@@ -31,7 +31,7 @@ pub struct LayerView<'a> {
     pub height: u32,
     /// Bytes from one row to the next.
     pub stride: usize,
-    /// height rows of stride bytes.
+    /// height rows of stride bytes. Contours: empty.
     pub data: &'a [u8],
     /// Number of solid samples.
     pub inside_count: u64,
@@ -58,7 +58,7 @@ where
             width: layer.width,
             height: layer.height,
             stride,
-            data: slice::from_raw_parts(layer.data, stride * layer.height as usize),
+            data: elements(layer.data, stride * layer.height as usize),
             inside_count: layer.inside_count,
         })
     })
@@ -97,17 +97,11 @@ impl Slicer {
 
     /// One layer.
     pub fn layer(&self, index: u64, job: Option<&Job>) -> Result<Layer> {
-        let mut data = vec![0; self.info()?.layer_bytes as usize];
+        let bytes = self.info()?.layer_bytes;
         let mut z = 0.0;
         check(unsafe { sys::msq_slicer_layer_z(self.as_ptr(), index, &mut z) })?;
-        check(unsafe {
-            sys::msq_slice_layer(
-                self.as_ptr(),
-                index,
-                data.as_mut_ptr(),
-                data.len() as u64,
-                raw_job(job),
-            )
+        let data = filled(bytes, |data| {
+            check(unsafe { sys::msq_slice_layer(self.as_ptr(), index, data, bytes, raw_job(job)) })
         })?;
         Ok(Layer { index, z, data })
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //! The crate against closed forms and against itself.
-use std::panic::{catch_unwind, AssertUnwindSafe};
+use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::Arc;
+use std::sync::{Arc, Barrier};
 
 use msq::{
-    sys, Context, ContextOptions, Field, Foam, Functional, Grid, Job, Lattice, Model, Period, Plan, Shape, Slicer,
-    Structure, Warp,
+    sys, Context, ContextOptions, Document, Field, Foam, Functional, Grid, Job, Lattice, LayerView, Model,
+    Period, Plan, Shape, Slicer, Structure, Warp,
 };
 
 fn cube(context: &Context) -> Shape {
@@ -242,6 +242,58 @@ fn sets_points_and_layers_agree() {
 }
 
 #[test]
+fn layers_of_contours_have_no_data() {
+    let context = Context::new().unwrap();
+    let text = r#"{"msq_model": 1, "scales": [{"shape": {"box": {"min": [0, 0, 0], "max": [4, 4, 4]}}}],
+        "slicing": {"pitch": [0.5, 0.5], "layer_height": 0.5,
+                    "outputs": [{"output": "contours", "contours": {"tolerance": 0.1}}]}}"#;
+    let document = match Document::from_json(&context, text, None) {
+        Err(error) if error.status() == sys::MSQ_E_UNSUPPORTED => return, // a build without JSON
+        document => document.unwrap(),
+    };
+    let slicer = document.slicer().unwrap();
+    let mut taken = 0;
+    let take = |layer: LayerView| {
+        assert!(layer.data.is_empty() && layer.stride == 0);
+        taken += 1;
+        Ok(())
+    };
+    slicer.run(0, 8, take, None).unwrap();
+    assert_eq!(taken, 8);
+    let error = slicer.layer(0, None).unwrap_err();
+    assert_eq!(error.status(), sys::MSQ_E_ARGUMENT);
+    assert!(error.message().contains("contours"), "{error}");
+}
+
+#[test]
+fn mesh_files_are_read_from_memory() {
+    let context = Context::new().unwrap();
+    let file = b"OFF\n4 4 0\n0 0 0\n6 0 0\n0 6 0\n0 0 6\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    let shape = Shape::from_memory(&context, file, sys::MSQ_FORMAT_OFF, None).unwrap();
+    let info = shape.info().unwrap();
+    assert_eq!((info.triangles, info.open_edges), (4, 0));
+    let refused = |file: &[u8], format| Shape::from_memory(&context, file, format, None).unwrap_err();
+    assert_eq!(refused(file, sys::MSQ_FORMAT_AUTO).status(), sys::MSQ_E_ARGUMENT);
+    assert_eq!(refused(&file[..20], sys::MSQ_FORMAT_OFF).status(), sys::MSQ_E_IO);
+    assert!(Shape::from_memory(&context, &[], sys::MSQ_FORMAT_OFF, None).is_err());
+}
+
+#[test]
+fn sizes_that_overflow_are_refused() {
+    let context = Context::new().unwrap();
+    let error = Field::grid(&context, &[1.0], [u64::MAX, 2, 1], [0.0; 3], [1.0; 3]).unwrap_err();
+    assert_eq!(error.status(), sys::MSQ_E_ARGUMENT);
+    assert!(error.message().contains("18446744073709551615 x 2 x 1"), "{error}");
+    let model = foam_model(&context);
+    let refused = |counts| {
+        let grid = Grid { origin: [0.0; 3], spacing: [1.0; 3], counts };
+        model.grid_membership(&grid, None).unwrap_err().status()
+    };
+    assert_eq!(refused([1 << 32, 1 << 32, 1]), sys::MSQ_E_ARGUMENT); // 2^64 points
+    assert_eq!(refused([1 << 32, 1 << 31, 1]), sys::MSQ_E_MEMORY);
+}
+
+#[test]
 fn errors_have_status_and_message() {
     let context = Context::new().unwrap();
     let error = Shape::sphere(&context, [0.0; 3], -1.0).unwrap_err();
@@ -294,11 +346,74 @@ fn codes_and_panics_of_closures_come_through() {
     let error = slicer.run(0, 5, |layer| if layer.index == 2 { Err(-7) } else { Ok(()) }, None);
     let error = error.unwrap_err();
     assert_eq!((error.status(), error.host_code()), (sys::MSQ_E_HOST, -7));
+    // Also those that msq takes for success, and those of the range in which panics have theirs.
+    for code in [0, 1, i32::MAX, -(1 << 30) + 1, -(1 << 30), i32::MIN] {
+        let mut calls = 0;
+        let mut take = |_: LayerView| {
+            calls += 1;
+            Err(code)
+        };
+        let error = slicer.run(0, 5, &mut take, None).unwrap_err();
+        assert_eq!((error.status(), error.host_code(), calls), (sys::MSQ_E_HOST, code, 1));
+        assert!(error.message().contains(&code.to_string()), "{error}");
+    }
     let panic = catch_unwind(AssertUnwindSafe(|| {
         let _ = slicer.run(0, 5, |layer| panic!("layer {}", layer.index), None);
     }));
     assert_eq!(panic.unwrap_err().downcast_ref::<String>().unwrap(), "layer 0");
     slicer.run(0, 5, |_| Ok(()), None).unwrap();
+}
+
+#[test]
+fn panics_and_codes_come_through_in_their_own_thread() {
+    let context = Context::new().unwrap();
+    let model = foam_model(&context);
+    let plan = Plan { pitch: 1.0, layer_height: 1.0, output: sys::MSQ_LAYER_BITS };
+    let slicer = Slicer::new(&model, plan).unwrap();
+    let together = Barrier::new(3);
+    let run = |take: &dyn Fn() -> std::result::Result<(), i32>| {
+        let take = |_: LayerView| {
+            together.wait();
+            take()
+        };
+        catch_unwind(AssertUnwindSafe(|| slicer.run(0, 1, take, None)))
+    };
+    let runs = || 0..2000usize;
+    std::thread::scope(|scope| {
+        for thread in 0..2usize {
+            scope.spawn(move || {
+                for i in runs() {
+                    // Without a panic's message.
+                    let panic = run(&|| resume_unwind(Box::new((thread, i)))).unwrap_err();
+                    assert_eq!(panic.downcast_ref(), Some(&(thread, i)));
+                }
+            });
+        }
+        for _ in runs() {
+            assert_eq!(run(&|| Err(i32::MIN)).unwrap().unwrap_err().host_code(), i32::MIN);
+        }
+    });
+}
+
+#[test]
+fn panics_that_no_call_reports_give_way() {
+    let context = Context::new().unwrap();
+    let freed = Arc::new(());
+    let alive = freed.clone();
+    let fail = Field::host(&context, 0.1, 0.5, 0.0, true, Box::new(move |_, _| {
+        resume_unwind(Box::new(alive.clone()))
+    }))
+    .unwrap();
+    let bcc = Lattice::new(sys::MSQ_UNIT_CELL_BCC, 2.5, fail);
+    let lattice = Structure::lattice(&context, &bcc).unwrap();
+    let model = Model::new(&context, &cube(&context), &[&lattice]).unwrap();
+    let grid = Grid { origin: [0.1; 3], spacing: [0.2; 3], counts: [50; 3] };
+    for _ in 0..2000 {
+        let run = || model.grid_membership(&grid, None);
+        let panic = catch_unwind(AssertUnwindSafe(run)).unwrap_err();
+        assert!(panic.is::<Arc<()>>());
+    }
+    assert!(Arc::strong_count(&freed) < 300, "{} values are kept", Arc::strong_count(&freed));
 }
 
 #[test]
