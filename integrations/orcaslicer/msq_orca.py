@@ -68,6 +68,13 @@ def import_msq(path):
     return msq
 
 
+def failures():
+    """Exceptions that the slicer shows as messages: those of msq too, if it could be imported."""
+    msq = sys.modules.get("msq")
+    of_msq = () if msq is None else (msq.Error,)
+    return (ConfigError, ImportError, ValueError, OSError, *of_msq)
+
+
 def make_model(msq, config, ctx_object, unit):
     """The structure in a box that is wider than the object. unit: mm of one of the slicer's integers."""
     low_x, low_y, high_x, high_y = (unit * float(side) for side in ctx_object.bounding_box())
@@ -174,7 +181,7 @@ class Fill(orca.slicing.SlicingPipelineCapabilityBase):
             return orca.ExecutionResult.success()
         try:
             return self.work(ctx)
-        except (ConfigError, ImportError, ValueError, OSError) as error:  # msq's errors are among these
+        except failures() as error:
             return orca.ExecutionResult.failure(orca.PluginResult.FatalError, f"msq: {error}")
 
     def work(self, ctx):

@@ -263,10 +263,15 @@ class Caster {
     double& from = progress_[i].from;
     const double end_above = std::max(end(i, level), from);
     const double tolerance = tolerance_of(i, level - 1);
+    // The point of an entry may lie outside by rounding, and its stay then ends where it begins.
+    const bool stays_at_entry =
+        hits_[i].scale == static_cast<int32_t>(level) - 1 && end_above <= from + tolerance;
     from =
         end_above + steps_of(i, level).behind(end_above, tolerance, slow_of(level - 1, tolerance));
-    hits_[i].scale = static_cast<int32_t>(level);  // that comes in next, if none above it does
-    hits_[i].normal = {};
+    if (!stays_at_entry) {
+      hits_[i].scale = static_cast<int32_t>(level);  // that comes in next, if none above it does
+      hits_[i].normal = {};
+    }
     if (from > end(i, level - 1)) {
       leave(i, level - 1);
       return;

@@ -67,6 +67,14 @@ void test_row(void** state) {
     ++by_scale[hits[i].scale];
     if (!inside(end) && !inside(end + 0x1p-36)) fail_at("it is outside", end);
     assert_true(std::abs(length(hits[i].normal) - 1) < 1e-9);
+    // Where the coarse structure begins within the fine one, its surface was crossed last.
+    const auto is_around = [&](const Structure& of) {
+      return of.inside(ray.at(end - 1e-6)) && of.inside(ray.at(end)) &&
+             of.inside(ray.at(end + 1e-6));
+    };
+    if (!hits[i].starts_inside && is_around(*row.fine) && !row.coarse->inside(ray.at(end - 1e-6)) &&
+        model->shape().inside(ray.at(end - 1e-6)) && hits[i].scale != 1)
+      fail_at("the coarse structure begins", end);
   }
   if (count < 100) return;  // too few to say how many hit which
   assert_true(by_scale[1] > count / 20);
@@ -90,6 +98,8 @@ int main() {
       {"struts that end in a network", network(coarse, Parameter(0.2)),
        lattice_factory(factored_unit_cell())(fine, Parameter(0.015))},
       {"struts in a network", network(coarse, Parameter(0.2)), octet(fine, Parameter(0.02))},
+      {"a sheet in a foam", foam_factory(FoamMethod::method_1, 1)(coarse, Parameter(0.08)),
+       sheet(fine, Parameter(0.6))},
       {"mixed struts in a host's function",
        make_host_gyroid(coarse, Parameter(0.3), false, false, 3.5),
        mixed_factory()(fine, Parameter(0.02))},

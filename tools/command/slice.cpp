@@ -195,8 +195,10 @@ void create_sl1(const Arguments& arguments, const Scene& scene, const msq_slicer
 }
 
 void create_svg(const msq_slicer* slicer, const std::string& path,
-                const msq_io_writer_def& writer_def, Format format, Writer& writer) {
+                const msq_io_writer_def& writer_def, const msq_contours_def& contours,
+                Format format, Writer& writer) {
   auto def = defaults(msq_io_svg_def_init);
+  def.units = contours.units;
   def.layout = format == Format::SVG_FILES ? MSQ_IO_SVG_FILES : MSQ_IO_SVG_STACK;
   check_io(msq_io_svg_create(slicer, path.c_str(), &writer_def, &def, writer.out()));
 }
@@ -263,7 +265,7 @@ void run_slice(const Arguments& arguments) {
   msq_slicer_report report = make_slicer(scene, plan, slicer);
   auto output = defaults(msq_output_def_init);
   if (takes_contours(format)) {
-    if (!(contours.pitch > 0)) contours.pitch = pitch_of(report);
+    if (!(contours.pitch > 0) || arguments.has("pitch")) contours.pitch = pitch_of(report);
     if (!(contours.tolerance > 0)) contours.tolerance = TOLERANCE_OF_PITCH * contours.pitch;
     contours.tolerance = arguments.number("tolerance", contours.tolerance);
     output.output = MSQ_LAYER_CONTOURS;
@@ -285,7 +287,7 @@ void run_slice(const Arguments& arguments) {
   } else if (format == Format::THREEMF) {
     create_threemf(slicer.get(), path, writer_def, contours, plan.layer_height, writer);
   } else if (takes_contours(format)) {
-    create_svg(slicer.get(), path, writer_def, format, writer);
+    create_svg(slicer.get(), path, writer_def, contours, format, writer);
   } else {
     check_io(msq_io_png_create(slicer.get(), path.c_str(), &writer_def, nullptr, writer.out()));
   }

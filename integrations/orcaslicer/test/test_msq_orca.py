@@ -132,7 +132,8 @@ class Plugin(unittest.TestCase):
         for config, text in (({"wher": "part"}, "unknown key 'wher'"), ({"where": "skin"}, "where is 'skin'"),
                              ({"tolerance": "fine"}, "tolerance is 'fine'"),
                              ({"structure": {"foam": {"radios": 1}}}, "radios: unknown key"),
-                             ({"structure": {"foam": {"radius": -1}}}, "radius"), ({"tolerance": -1}, "tolerance")):
+                             ({"structure": {"foam": {"radius": -1}}}, "radius"),
+                             ({"structure": {"foam": {"grid": {"cell_size": 1e-8}, "radius": 1e-9}}}, "limit"), ({"tolerance": -1}, "tolerance")):
             with self.subTest(text):
                 block = make_object(2)
                 result = self.run_step(stub.Step.posPrepareInfill, block, **config)
