@@ -8,6 +8,7 @@ import pty
 import re
 import resource
 import select
+import shutil
 import signal
 import subprocess
 import time
@@ -135,6 +136,25 @@ class Disks(Case):
             self.refuse(1, text, "mesh", BOX, "--pitch", "4", "-o", self.folder / output)
         self.refuse(1, "directory", "info", "-o", self.folder)
         self.assertEqual(self.names(), ["folder.stl"])
+
+    def test_a_folder_of_an_earlier_run_stays(self):
+        path = self.folder / "layers"
+        plan = ("-p", "1", "-l", "0.5", "-o", path)
+        self.msq("slice", "box:4,4,4", *plan)
+        (path / "layer00005.png").unlink()
+        (path / "layer00005.png" / "in the way").mkdir(parents=True)
+        before = {name: (self.folder / name).read_bytes() for name in self.names() if name[-6:] in
+                  ("00.png", "04.png", "06.png")}
+        names = self.names()
+        self.refuse(1, "layer00005.png", "slice", "box:2,2,4", *plan)
+        self.assertEqual(self.names(), names)
+        for name, data in before.items():
+            self.assertEqual((self.folder / name).read_bytes(), data)
+        shutil.rmtree(path / "layer00005.png")
+        self.msq("slice", "box:2,2,4", *plan)
+        self.assertEqual(len(self.names()), 9)
+        self.assertTrue(all((self.folder / name).read_bytes() != data for name, data in
+                            before.items()))
 
     def test_an_existing_file_is_replaced_and_a_link_followed(self):
         link, path = self.folder / "link.json", self.folder / "real.json"

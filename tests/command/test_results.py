@@ -165,6 +165,8 @@ class Query(Case):
 
     def test_bad_points(self):
         for text, given in (("line 2: 'a' is not a finite number", "1,2,3\na,2,3\n"),
+                            ("line 1: 'nan' is not a finite number", "nan,2,3\n1,2,3\n"),
+                            ("line 1: 'b' is not a finite number", "1,b,3\n1,2,3\n"),
                             ("line 1: 2 columns, and a point needs 3", "1,2\n"),
                             ("line 3: 'inf' is not a finite number", "x,y,z\n1,2,3\n1,inf,3\n"),
                             ("line 1: more than 65536 bytes long", "1" * 200000)):
@@ -217,6 +219,10 @@ class Measures(Case):
         volume = (normals * corners[:, 0]).sum() / 6
         self.assertAlmostEqual(found["surface"]["area"] / area, 1, places=12)
         self.assertAlmostEqual(found["surface"]["volume"] / volume, 1, places=9)
+        for height in (1e-4, 1e-6, 5):  # a cross-section has as many points
+            thin = json.loads(self.msq("stats", BOX, "--json", "--samples", "24000",
+                                       f"--box=0,0,1,8,6,{1 + height}"))
+            self.assertLess(abs(thin["samples"] - 24000), 2400)
         void = json.loads(self.msq("stats", BOX, *FOAM, "--json", "--samples", "24000", "--phase",
                                    "void"))
         self.assertAlmostEqual(void["volume_fraction"]["value"], 1 - fraction.value)

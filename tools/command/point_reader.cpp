@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -21,6 +23,15 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "NPY is read and written as it lies");
 
 constexpr size_t MAX_LINE = 1 << 16;
+
+// Whether a column may be meant as a number, a wrong one too. Headings are not.
+bool looks_like_number(std::string_view part) {
+  std::string text(trimmed(part));
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return !text.empty() && (std::strchr("+-.0123456789", text[0]) != nullptr || text == "nan" ||
+                           text == "inf" || text == "infinity");
+}
 
 // Bytes of a file or of standard input.
 class Input {
@@ -118,14 +129,14 @@ class CsvReader : public PointReader {
     line = trimmed(line);
     if (line.empty() || line[0] == '#') return;
     const std::vector<std::string_view> parts = split(line, ',');
-    const bool may_be_heading = !std::exchange(has_row_, true);
+    const bool is_first = !std::exchange(has_row_, true);
     if (parts.size() < 3) {
       fail(line_, std::to_string(parts.size()) + " columns, and a point needs 3");
     }
+    if (is_first && std::none_of(parts.begin(), parts.begin() + 3, looks_like_number)) return;
     double point[3];
     for (size_t i = 0; i < 3; ++i) {
       const std::optional<double> value = to_number(parts[i]);
-      if (!value && may_be_heading) return;
       if (!value) fail(line_, "'" + std::string(parts[i]) + "' is not a finite number");
       point[i] = *value;
     }

@@ -47,23 +47,53 @@ void read_size(const Arguments& arguments, msq_render_def& def) {
   def.samples = static_cast<uint32_t>(samples);
 }
 
-// Options take the place of what the camera has.
+void find_direction(const msq_camera& camera, double direction[3]) {
+  for (size_t a = 0; a < 3; ++a) direction[a] = camera.target[a] - camera.eye[a];
+}
+
+// Whether the camera of a model file is one that was fitted to the model, along a direction.
+bool is_fitted(const Scene& scene, const msq_render_def& def, const msq_camera& camera) {
+  double direction[3];
+  find_direction(camera, direction);
+  msq_camera fitted = camera;
+  check(msq_camera_fit(scene.model.get(), direction, camera.up, def.width, def.height, &fitted));
+  const double room =
+      1e-9 * (std::fabs(fitted.height) + std::hypot(direction[0], direction[1], direction[2]));
+  bool is_same = std::fabs(fitted.height - camera.height) <= room;
+  for (size_t a = 0; a < 3; ++a) {
+    is_same = is_same && std::fabs(fitted.eye[a] - camera.eye[a]) <= room &&
+              std::fabs(fitted.target[a] - camera.target[a]) <= room;
+  }
+  return is_same;
+}
+
+// Options take the place of what the camera has. file_def: what a model file says, or null.
 void place_camera(const Arguments& arguments, const Scene& scene, const msq_render_def& def,
-                  bool is_placed, msq_camera& camera) {
+                  const msq_render_def* file_def, msq_camera& camera) {
   const double zoom = arguments.number("zoom", 1);
   if (!(zoom > 0)) arguments.refuse("zoom", arguments.text("zoom") + " is not above 0");
+  const bool fits_anew = file_def == nullptr || arguments.has("view") ||
+                         arguments.has("perspective") ||
+                         (arguments.has("size") && is_fitted(scene, *file_def, camera));
+  double direction[3];
+  if (arguments.has("view") || file_def == nullptr) {
+    std::vector<double> view = {32, 30};
+    if (arguments.has("view")) view = arguments.numbers("view", {2});
+    orbit_direction(view[0], view[1], direction);
+  } else {
+    find_direction(camera, direction);
+  }
   if (arguments.has("perspective")) {
     camera.projection = MSQ_CAMERA_PERSPECTIVE;
     camera.field_of_view = arguments.number("perspective", 40);
   }
   double nearer = 1 / zoom;
-  if (!is_placed || arguments.has("view") || arguments.has("perspective")) {
-    std::vector<double> view = {32, 30};
-    if (arguments.has("view")) view = arguments.numbers("view", {2});
-    double direction[3];
-    orbit_direction(view[0], view[1], direction);
-    check(msq_camera_fit(scene.model.get(), direction, nullptr, def.width, def.height, &camera));
-    nearer *= MARGIN;
+  if (fits_anew) {
+    const bool keeps_up = file_def != nullptr && !arguments.has("view");
+    const std::vector<double> up(camera.up, camera.up + 3);
+    check(msq_camera_fit(scene.model.get(), direction, keeps_up ? up.data() : nullptr, def.width,
+                         def.height, &camera));
+    if (!keeps_up || arguments.has("perspective")) nearer *= MARGIN;
   }
   std::vector<double> at(camera.target, camera.target + 3);
   if (arguments.has("at")) at = arguments.numbers("at", {3});
@@ -114,9 +144,11 @@ void run_render(const Arguments& arguments) {
   if (is_plain) {
     def.shadows = 0;
     def.occlusion_rays = 0;
+    def.background[3] = 0;
   }
+  const msq_render_def file_def = def;
   read_size(arguments, def);
-  place_camera(arguments, scene, def, scene.has_view, camera);
+  place_camera(arguments, scene, def, scene.has_view ? &file_def : nullptr, camera);
 
   const size_t pixels = size_t{def.width} * def.height;
   std::vector<uint8_t> rgba(4 * pixels);

@@ -194,11 +194,24 @@ void create_sl1(const Arguments& arguments, const Scene& scene, const msq_slicer
   check_io(msq_io_sl1_create(slicer, path.c_str(), &writer_def, &def, writer.out(), work.job()));
 }
 
+void remove_window(msq_contours_def& contours) {
+  contours.has_window = 0;
+  for (size_t i = 0; i < 2; ++i) contours.window_min[i] = contours.window_max[i] = 0;
+}
+
+// Digits after the point that are finer than contours and layers. 4 are enough for most.
+uint32_t decimals_of(const msq_contours_def& contours, double layer_height) {
+  const double finest =
+      layer_height > 0 ? std::fmin(contours.tolerance, layer_height) : contours.tolerance;
+  return static_cast<uint32_t>(std::fmin(std::fmax(std::ceil(-std::log10(finest)) + 1, 4), 12));
+}
+
 void create_svg(const msq_slicer* slicer, const std::string& path,
                 const msq_io_writer_def& writer_def, const msq_contours_def& contours,
-                Format format, Writer& writer) {
+                double layer_height, Format format, Writer& writer) {
   auto def = defaults(msq_io_svg_def_init);
   def.units = contours.units;
+  def.decimals = decimals_of(contours, layer_height);
   def.layout = format == Format::SVG_FILES ? MSQ_IO_SVG_FILES : MSQ_IO_SVG_STACK;
   check_io(msq_io_svg_create(slicer, path.c_str(), &writer_def, &def, writer.out()));
 }
@@ -266,6 +279,7 @@ void run_slice(const Arguments& arguments) {
   auto output = defaults(msq_output_def_init);
   if (takes_contours(format)) {
     if (!(contours.pitch > 0) || arguments.has("pitch")) contours.pitch = pitch_of(report);
+    if (arguments.has("box")) remove_window(contours);
     if (!(contours.tolerance > 0)) contours.tolerance = TOLERANCE_OF_PITCH * contours.pitch;
     contours.tolerance = arguments.number("tolerance", contours.tolerance);
     output.output = MSQ_LAYER_CONTOURS;
@@ -287,7 +301,7 @@ void run_slice(const Arguments& arguments) {
   } else if (format == Format::THREEMF) {
     create_threemf(slicer.get(), path, writer_def, contours, plan.layer_height, writer);
   } else if (takes_contours(format)) {
-    create_svg(slicer.get(), path, writer_def, contours, format, writer);
+    create_svg(slicer.get(), path, writer_def, contours, plan.layer_height, format, writer);
   } else {
     check_io(msq_io_png_create(slicer.get(), path.c_str(), &writer_def, nullptr, writer.out()));
   }

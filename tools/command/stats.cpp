@@ -2,6 +2,8 @@
 // msq stats: measures a model in a box.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "report.h"
 #include "scene.h"
@@ -13,6 +15,20 @@ namespace command {
 namespace {
 
 constexpr uint32_t POINTS_A_CELL = 2;
+
+// Side of so many cubes that fill a box. A side of the box that is shorter has one cube across it.
+double side_of_cubes(const double min[3], const double max[3], double count) {
+  std::vector<double> sizes;
+  for (size_t i = 0; i < 3; ++i) sizes.push_back(max[i] - min[i]);
+  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  for (size_t wide = 3; wide > 1; --wide) {
+    double volume = 1 / count;
+    for (size_t i = 0; i < wide; ++i) volume *= sizes[i];
+    const double side = std::pow(volume, 1 / static_cast<double>(wide));
+    if (side <= sizes[wide - 1]) return side;
+  }
+  return sizes[0] / count;
+}
 
 // Two points in each of about as many cubes as the number requests.
 msq_points_def make_sample(const Arguments& arguments, const double min[3], const double max[3]) {
@@ -26,9 +42,8 @@ msq_points_def make_sample(const Arguments& arguments, const double min[3], cons
   sample.kind = MSQ_POINTS_STRATIFIED;
   sample.per_cell = POINTS_A_CELL;
   sample.seed = arguments.count("sample-seed", 0);
-  double volume = 1;
-  for (size_t i = 0; i < 3; ++i) volume *= max[i] - min[i];
-  const double side = std::cbrt(volume * POINTS_A_CELL / static_cast<double>(wanted));
+  const double side =
+      side_of_cubes(min, max, static_cast<double>(wanted) / static_cast<double>(POINTS_A_CELL));
   for (size_t i = 0; i < 3; ++i) {
     const double size = max[i] - min[i];
     const double count = std::fmin(std::fmax(std::round(size / side), 1), 1e9);

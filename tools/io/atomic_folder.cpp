@@ -75,14 +75,34 @@ void AtomicFolder::commit(const std::vector<std::string>& names) {
     if (!fs::is_directory(path_, error))
       fail_io("cannot give the folder its name", code, text_of(path_));
   }
+  const fs::path replaced = temporary_ / "replaced";
+  std::error_code error;
+  if (replace_) fs::create_directory(replaced, error);
   for (size_t i = 0; i < names.size(); ++i) {
+    if (replace_) keep_old(names[i], replaced);
     const int code = rename_to(temporary_ / names[i], path_ / names[i], replace_);
     if (code == 0) continue;
-    std::error_code error;
-    for (size_t k = 0; k < i; ++k) fs::remove(path_ / names[k], error);
+    for (size_t k = 0; k <= i; ++k) put_back(names[k], replaced, k < i);
     fail_io("cannot give the file its name", code, text_of(path_ / names[i]));
   }
   remove();
+}
+
+void AtomicFolder::keep_old(const std::string& name, const fs::path& to) const {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path_ / name, error))) return;
+  if (fs::is_directory(fs::symlink_status(path_ / name, error))) return;  // the rename will fail
+  // A second name, where the disk has such: so the first always has a file.
+  fs::create_hard_link(path_ / name, to / name, error);
+  if (error) rename_to(path_ / name, to / name, true);
+}
+
+void AtomicFolder::put_back(const std::string& name, const fs::path& from, bool is_new) const {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(from / name, error)))
+    rename_to(from / name, path_ / name, true);
+  else if (is_new)
+    fs::remove(path_ / name, error);
 }
 
 }  // namespace msq_io

@@ -2,6 +2,7 @@
 #include "panel.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace msq_io;
 
@@ -30,6 +31,33 @@ msq_io_panel_def read_panel(const msq_io_panel_def* host_def) {
   return def;
 }
 
+namespace {
+
+/// Bounds of a model along the axes of a plan: those of its box in the frame, as slicers have them.
+void find_bounds(const msq_model& model, const msq_slicer_def& plan, double (&min)[3],
+                 double (&max)[3]) {
+  check_msq(msq_model_bounds(&model, min, max));
+  const double* const axes = plan.frame_axes;
+  if (std::all_of(axes, axes + 9, [](double number) { return number == 0; })) return;
+  double middle[3], half[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    half[axis] = (max[axis] - min[axis]) / 2;
+    middle[axis] = min[axis] + half[axis] - plan.frame_origin[axis];
+  }
+  for (int row = 0; row < 3; ++row) {
+    double at = 0, reach = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double part = axes[3 * row + axis];
+      at += part * middle[axis];
+      if (part != 0) reach += std::abs(part) * half[axis];
+    }
+    min[row] = at - reach;
+    max[row] = at + reach;
+  }
+}
+
+}  // namespace
+
 }  // namespace msq_io
 
 msq_status msq_io_panel_def_init(msq_io_panel_def* def, size_t size) {
@@ -51,7 +79,7 @@ msq_status msq_io_panel_plan(const msq_model* model, const msq_io_panel_def* hos
     const msq_io_panel_def panel = read_panel(host_panel);
     const double height = require_positive(plan->layer_height, "layer_height of plan");
     double min[3], max[3];
-    check_msq(msq_model_bounds(&require(model, "model"), min, max));
+    find_bounds(require(model, "model"), copy, min, max);
     for (int axis = 0; axis < 3; ++axis) {
       if (!std::isfinite(max[axis] - min[axis]))
         fail(MSQ_E_ARGUMENT, "the model fills all space; a panel needs one with bounds");
