@@ -73,8 +73,9 @@ struct SampleGrid {
     const Vec3 last{static_cast<double>(first[0] + nx), static_cast<double>(first[1] + ny),
                     static_cast<double>(first[2] + nz)};
     double largest = 0;
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < (heights ? 2 : 3); ++axis)
       largest = std::max(largest, std::abs(origin[axis]) + last[axis] * spacing[axis]);
+    if (heights && nz > 0) largest = std::max({largest, std::abs(z(0)), std::abs(z(nz - 1))});
     return largest;
   }
   /// Exceeds the difference of x(i) and x(j) + (i - j) * spacing.x, and likewise along y and z.

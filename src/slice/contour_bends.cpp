@@ -89,7 +89,7 @@ HWY_INLINE M are_flat_arcs(const double* x, const double* y, const double* curva
       hn::And(hn::Gt(hn::Mul(k1, k2), zero),
               hn::And(hn::Gt(hn::Mul(k0, k1), zero), hn::Gt(hn::Mul(k3, k1), zero)));
   const M is_even = hn::Le(hn::Max(hn::Abs(k1), hn::Abs(k2)),
-                           hn::Mul(hn::Set(d, even_curvature), hn::Max(hn::Abs(k0), hn::Abs(k3))));
+                           hn::Mul(hn::Set(d, even_curvature), hn::Min(hn::Abs(k0), hn::Abs(k3))));
   // Where the height is 0, the scalar arithmetic has no arc.
   const M is_low =
       hn::And(hn::Le(hn::Abs(height), hn::Set(d, flat_arc * tolerance)), hn::Ne(height, zero));

@@ -13,7 +13,7 @@ namespace msq {
 /// than this factor.
 inline constexpr double even_curvature = 1.6;
 /// Of the tolerance: arcs that are no higher than that are near enough to their chords.
-inline constexpr double flat_arc = 0.75;
+inline constexpr double flat_arc = 0.5;
 
 /// Sets bit i of `bits` where the boundary may bend by more than `tolerance` between point i and
 /// the next one, as points i - 2 to i + 3 tell; also where a point that is nearer than `close` to

@@ -34,7 +34,8 @@ double curvature(Vec2 a, Vec2 b, Vec2 c) {
 
 /// How far an arc from a to b is from its chord, to the right, where the six points lie on a curve
 /// that bends about evenly; 0 where they do not. At a corner between a and b the curvature of
-/// triples that hold both is far above that of the outer ones.
+/// triples that hold both is far above that of the outer ones; above that of one of them, where the
+/// other holds a second corner.
 double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q) {
   const double k1 = curvature(p, a, b), k2 = curvature(a, b, q);
   if (!(k1 * k2 > 0)) return 0;
@@ -43,7 +44,7 @@ double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q) {
   const double k3 = curvature(b, q, behind_q);
   if (!(k3 * k1 > 0)) return 0;
   const double inner = std::max(std::abs(k1), std::abs(k2));
-  if (!(inner <= even_curvature * std::max(std::abs(k0), std::abs(k3)))) return 0;
+  if (!(inner <= even_curvature * std::min(std::abs(k0), std::abs(k3)))) return 0;
   return 0.125 * 0.5 * (k1 + k2) * dot(b - a, b - a);
 }
 
@@ -285,20 +286,27 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
 
 /// Takes the middles of arcs that membership confirms.
 void ContourDetails::take_arcs(ContourPoints& points) {
+  constexpr double places[] = {0.25, 0.5, 0.75};
   points.clear();
   for (const Piece& piece : memory_->pieces) {
     if (!piece.has_arc) continue;
     const Vec2 to_inside = left_of(unit(piece.b - piece.a)) * (0.75 * tolerance_);
-    points.add(piece.arc + to_inside);
-    points.add(piece.arc - to_inside);
+    for (const double place : places) {
+      // An arc has so much of its height there.
+      const double height = 4 * place * (1 - place);
+      const Vec2 at = piece.a + (piece.b - piece.a) * place + (piece.arc - piece.middle()) * height;
+      points.add(at + to_inside);
+      points.add(at - to_inside);
+    }
   }
   const std::vector<uint8_t>& inside = points.find_inside();
   begin_run();
   size_t kept = 0, n = 0;
   for (const Piece& piece : memory_->pieces) {
     if (piece.has_arc) {
-      const bool is_near = inside[n] && !inside[n + 1];
-      n += 2;
+      bool is_near = true;
+      for (size_t k = 0; k < std::size(places); ++k, n += 2)
+        is_near = is_near && inside[n] && !inside[n + 1];
       if (is_near) {
         memory_->details.push_back({piece.id, piece.next, 0.5, piece.arc});
         continue;

@@ -2,6 +2,7 @@
  * msq_layer_contours, msq_slicer_contours and msq_contours_info. What contours must be like:
  * tests/unit/test_contours.cpp. */
 #include "definitions.h"
+#include "fixtures.h"
 #include "layers.h"
 
 static msq_contours_def contours_def(int32_t type, double tolerance) {
@@ -315,6 +316,89 @@ static void memory_of_details_is_counted(void** state) {
   assert_true(peaks[1] > peaks[0] + 64 * (points[1] - points[0]));
 }
 
+/* A prism over a convex polygon of count corners, counter-clockwise. */
+static msq_model* make_prism(msq_context* context, double (*corners)[2], uint32_t count) {
+  double vertices[16][3];
+  uint32_t triangles[28][3], made = 0;
+  for (uint32_t i = 0; i < 2 * count; ++i) {
+    vertices[i][0] = corners[i % count][0];
+    vertices[i][1] = corners[i % count][1];
+    vertices[i][2] = i < count ? -5 : 5;
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t next = (i + 1) % count;
+    const uint32_t of_side[2][3] = {{i, next, next + count}, {i, next + count, i + count}};
+    memcpy(triangles[made], of_side, sizeof of_side);
+    made += 2;
+    if (i == 0 || next == 0) continue;
+    const uint32_t of_ends[2][3] = {{0, next, i}, {count, i + count, next + count}};
+    memcpy(triangles[made], of_ends, sizeof of_ends);
+    made += 2;
+  }
+  msq_mesh_def def;
+  assert_ok(msq_mesh_def_init(&def, sizeof def));
+  def.vertices = vertices;
+  def.vertex_count = 2 * count;
+  def.triangles = triangles[0];
+  def.triangle_count = made;
+  msq_shape* prism;
+  assert_ok(msq_shape_from_mesh(context, &def, &prism));
+  return make_shape_model(context, prism);
+}
+
+static double distance_to_segment(const double p[2], const double a[2], const double b[2]) {
+  const double way[2] = {b[0] - a[0], b[1] - a[1]}, from[2] = {p[0] - a[0], p[1] - a[1]};
+  const double along = (from[0] * way[0] + from[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+  const double t = along < 0 ? 0 : along > 1 ? 1 : along;
+  return hypot(from[0] - t * way[0], from[1] - t * way[1]);
+}
+
+/* Corners of polygons, which may be two or three crossings apart, are within the tolerance. */
+static void corners_are_points_of_rings(void** state) {
+  (void)state;
+  static const double tolerances[] = {0.5, 0.25, 0.125, 0.1, 0.05, 0.02};
+  msq_context* context = make_context();
+  uint64_t random = 1;
+  for (int i = 0; i < 1500; ++i) {
+    const uint32_t count = 4 + (uint32_t)(i % 4);
+    const double size = random_between(&random, 2, 8), turn = random_between(&random, 0, 7);
+    const double flat = random_between(&random, 0.5, 1), tolerance = tolerances[i % 6];
+    const double middle[2] = {random_between(&random, 0, 1), random_between(&random, 0, 1)};
+    double corners[8][2], least = 1e9;
+    for (uint32_t k = 0; k < count; ++k) {
+      const double angle = (k + random_between(&random, 0, 0.6)) * 2 * acos(-1) / count;
+      const double u = size * cos(angle), v = size * flat * sin(angle);
+      corners[k][0] = middle[0] + u * cos(turn) - v * sin(turn);
+      corners[k][1] = middle[1] + u * sin(turn) + v * cos(turn);
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+      const double* next = corners[(k + 1) % count];
+      least = fmin(least, hypot(next[0] - corners[k][0], next[1] - corners[k][1]));
+    }
+    if (least < 1.5) continue;
+    msq_model* model = make_prism(context, corners, count);
+    msq_contours_def def = contours_def(MSQ_FLOAT64, tolerance);
+    def.pitch = 1;
+    msq_contours* contours;
+    assert_ok(msq_layer_contours(model, 0.3, &def, &contours, NULL));
+    const msq_contours_report report = contents_of(contours);
+    assert_int_equal(report.ring_count, 1);
+    const double* points = report.points;
+    for (uint32_t k = 0; k < count && report.unresolved_count == 0; ++k) {
+      double distance = 1e9;
+      for (uint64_t n = 0; n < report.point_count; ++n)
+        distance = fmin(distance, distance_to_segment(corners[k], points + 2 * n,
+                                                      points + 2 * ((n + 1) % report.point_count)));
+      if (distance > 1.02 * tolerance)
+        fail_msg("polygon %d: corner (%g, %g) is %g from the ring; the tolerance is %g", i,
+                 corners[k][0], corners[k][1], distance, tolerance);
+    }
+    msq_contours_release(contours);
+    msq_model_release(model);
+  }
+  msq_context_release(context);
+}
+
 /* Crossings are found to the spacing of numbers, if the tolerance asks for more. */
 static void tolerances_below_the_spacing_of_numbers_end(void** state) {
   (void)state;
@@ -360,6 +444,7 @@ int main(void) {
       cmocka_unit_test(memory_is_limited),
       cmocka_unit_test(memory_of_planes_is_counted),
       cmocka_unit_test(memory_of_details_is_counted),
+      cmocka_unit_test(corners_are_points_of_rings),
       cmocka_unit_test(tolerances_below_the_spacing_of_numbers_end),
       cmocka_unit_test(release_of_null_does_nothing),
   };

@@ -55,7 +55,7 @@ bool may_bend(const Vec2 (&p)[6]) {
   double k[4];
   for (int i = 0; i < 4; ++i) k[i] = curvature(p[i], p[i + 1], p[i + 2]);
   const double inner = std::max(std::abs(k[1]), std::abs(k[2]));
-  const double outer = std::max(std::abs(k[0]), std::abs(k[3]));
+  const double outer = std::min(std::abs(k[0]), std::abs(k[3]));
   const bool is_arc = k[0] * k[1] > 0 && k[2] * k[1] > 0 && k[3] * k[1] > 0;
   const double height = std::abs(k[1] + k[2]) / 16 * dot(ab, ab);
   return !(is_arc && inner <= even_curvature * outer && height <= flat_arc * tolerance);

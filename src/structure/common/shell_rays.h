@@ -47,6 +47,12 @@ void enter_in_shell(const CellShell& shell, const Structure& solid, RaySearch* s
   }
 }
 
+/// Whether a ray comes into the shell at t. Where it enters the solid at once, either has a normal.
+inline bool enters_shell(const CellShell& shell, const Structure& solid, const Ray& ray, double t) {
+  const double room = 2 * solid.ray_tolerance(ray, t);
+  return !shell.holds(ray.at(t - room)) && shell.holds(ray.at(t + room));
+}
+
 /// As Structure::leave() of `solid`. leave(from, to, t) does it as if there were no shell: false if
 /// the ray does not leave.
 template <class Leave>

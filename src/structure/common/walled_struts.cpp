@@ -61,9 +61,9 @@ double WalledStruts::leave(const Ray& ray, double from, double to, const Job* jo
 Vec3 WalledStruts::normal(const Ray& ray, double t) const {
   const Vec3 p = ray.at(t);
   const bool in_walls = walls_->inside(p), in_struts = struts_->inside(p);
-  // In both, that which the ray has just come into.
+  // In both, that which the ray has just come into. In neither, the nearer one.
   const bool by_walls =
-      in_walls && (!in_struts || walls_->distance_bound(p) <= struts_->distance_bound(p));
+      in_walls == in_struts ? walls_->distance_bound(p) <= struts_->distance_bound(p) : in_walls;
   return by_walls ? walls_->normal(ray, t) : struts_->normal(ray, t);
 }
 

@@ -211,6 +211,8 @@ double Functional::leave(const Ray& ray, double from, double to, const Job* job)
 }
 
 Vec3 Functional::normal(const Ray& ray, double t) const {
+  const std::unique_ptr<const CellShell> shell = angles_.shell();
+  if (shell && enters_shell(*shell, *this, ray, t)) return shell->normal(ray.at(t));
   RaySearch search{ray, t, t, true, t};
   FunctionalRays(*this, nullptr).find_normals(&search, 1);
   return dot(search.normal, search.normal) > 0 ? search.normal : ray.direction * -1.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "base/ray_normal.h"
 #include "base/simd.h"
 #include "base/unit.h"
 #include "structure/functional/row_kernels.h"
@@ -436,8 +437,12 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
       const Vec3 away = solid_.angles().gradient(points_[i], gradients[i]) -
                         level_.gradient(points_[i], 0x1p-16 * cell_);
       const double steepness = length(away);
-      searches[live_[i].search].normal =
-          steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
+      RaySearch& search = searches[live_[i].search];
+      search.normal = steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
+      // Where the function jumps or has no value, its slope may point into the solid.
+      if (dot(search.normal, search.ray.direction) > 0x1p-20)
+        search.normal = normal_by_membership([this](Vec3 p) { return solid_.inside(p); },
+                                             search.ray, search.t, solid_.normal_distance());
     }
   }
 }

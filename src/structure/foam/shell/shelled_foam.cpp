@@ -58,10 +58,7 @@ double ShelledFoam::leave(const Ray& ray, double from, double to, const Job* job
 }
 
 Vec3 ShelledFoam::normal(const Ray& ray, double t) const {
-  const double room = 2 * ray_tolerance(ray, t);
-  const bool meets_shell = !shell_->holds(ray.at(t - room)) && shell_->holds(ray.at(t + room));
-  // Where the ray enters both at once, either is a normal.
-  return meets_shell ? shell_->normal(ray.at(t)) : foam_->normal(ray, t);
+  return enters_shell(*shell_, *this, ray, t) ? shell_->normal(ray.at(t)) : foam_->normal(ray, t);
 }
 
 std::unique_ptr<StrutParts> ShelledFoam::struts(const StrutSelection& selection) const {
