@@ -65,8 +65,10 @@ import "C"
 
 import (
 	"fmt"
+	"math"
 	"runtime"
 	"runtime/cgo"
+	"strings"
 	"unsafe"
 )
 
@@ -106,18 +108,42 @@ func call(function func() C.msq_status) error {
 	return nil
 }
 
+func refusal(format string, values ...interface{}) error {
+	return &Error{ErrArgument, fmt.Sprintf(format, values...)}
+}
+
+// countOf is a number of Go as one of C, from 0 to a limit.
+func countOf(name string, value int, limit uint32) (C.uint32_t, error) {
+	if value < 0 || uint64(value) > uint64(limit) {
+		return 0, refusal("%s is %d; it must be from 0 to %d", name, value, limit)
+	}
+	return C.uint32_t(value), nil
+}
+
+// textOf is a copy of a text for C, where a zero byte ends it. The caller frees it.
+func textOf(name, text string) (*C.char, error) {
+	if at := strings.IndexByte(text, 0); at >= 0 {
+		return nil, refusal("%s %q has a zero byte at %d", name, text, at)
+	}
+	return C.CString(text), nil
+}
+
 // Context has threads, cell cache and memory limit that objects share.
 type Context struct{ raw *C.msq_context }
 
 // NewContext makes a context with the defaults. threads 0: one per core.
 func NewContext(threads int) (*Context, error) {
 	made := &Context{}
-	err := call(func() C.msq_status {
+	count, err := countOf("threads", threads, math.MaxUint32)
+	if err != nil {
+		return made, err
+	}
+	err = call(func() C.msq_status {
 		var def C.msq_context_def
 		if status := C.msq_context_def_init(&def, C.size_t(unsafe.Sizeof(def))); status != C.MSQ_OK {
 			return status
 		}
-		def.threads = C.uint32_t(threads)
+		def.threads = count
 		return C.msq_context_create(&def, &made.raw)
 	})
 	runtime.SetFinalizer(made, (*Context).Close)
@@ -195,7 +221,10 @@ func Sphere(context *Context, center [3]float64, radius float64) (*Shape, error)
 // ShapeFromFile reads a mesh file in millimetres.
 func ShapeFromFile(context *Context, path string) (*Shape, error) {
 	defer runtime.KeepAlive(context)
-	text := C.CString(path)
+	text, err := textOf("path", path)
+	if err != nil {
+		return &Shape{}, err
+	}
 	defer C.free(unsafe.Pointer(text))
 	return shapeOf(func(raw **C.msq_shape) C.msq_status {
 		return C.msq_shape_from_file(context.raw, text, nil, raw, nil)
@@ -263,12 +292,16 @@ func NewModel(context *Context, shape *Shape, structures ...*Structure) (*Model,
 	defer runtime.KeepAlive(context)
 	defer runtime.KeepAlive(shape)
 	defer runtime.KeepAlive(structures)
+	count, err := countOf("the number of structures", len(structures), math.MaxUint32-1) // the shape is one scale more
+	if err != nil {
+		return &Model{}, err
+	}
 	raws := make([]*C.msq_structure, len(structures)+1) // no empty array
 	for i, structure := range structures {
 		raws[i] = structure.raw
 	}
 	return modelOf(func(raw **C.msq_model) C.msq_status {
-		return C.model_of(context.raw, shape.raw, &raws[0], C.uint32_t(len(structures)), raw)
+		return C.model_of(context.raw, shape.raw, &raws[0], count, raw)
 	})
 }
 
@@ -317,10 +350,10 @@ type Document struct{ raw *C.msq_document }
 // DocumentFromJSON reads a text.
 func DocumentFromJSON(context *Context, text []byte) (*Document, error) {
 	defer runtime.KeepAlive(context)
-	made, copied := &Document{}, C.CString(string(text))
-	defer C.free(unsafe.Pointer(copied))
+	made, copied := &Document{}, C.CBytes(text)
+	defer C.free(copied)
 	err := call(func() C.msq_status {
-		return C.msq_document_from_json(context.raw, copied, C.uint64_t(len(text)), nil,
+		return C.msq_document_from_json(context.raw, (*C.char)(copied), C.uint64_t(len(text)), nil,
 			&made.raw, nil)
 	})
 	runtime.SetFinalizer(made, (*Document).Close)
@@ -430,17 +463,19 @@ type Layer struct {
 }
 
 type taker struct {
-	take  func(Layer) error
-	err   error
-	panic interface{}
+	take     func(Layer) error
+	err      error
+	panicked bool
+	panic    interface{} // nil of panic(nil)
 }
 
 //export msqGoTakeLayer
 func msqGoTakeLayer(user unsafe.Pointer, layer *C.msq_layer) (code C.int32_t) {
 	taker := cgo.Handle(uintptr(user)).Value().(*taker)
+	taker.panicked = true
 	defer func() {
-		if taker.panic = recover(); taker.panic != nil { // none may pass through C
-			code = -1
+		if taker.panicked {
+			taker.panic, code = recover(), -1 // none may pass through C
 		}
 	}()
 	given := Layer{
@@ -450,14 +485,17 @@ func msqGoTakeLayer(user unsafe.Pointer, layer *C.msq_layer) (code C.int32_t) {
 	if layer.data != nil {
 		given.Data = unsafe.Slice((*byte)(layer.data), given.Stride*given.Height)
 	}
-	if taker.err = taker.take(given); taker.err != nil {
+	taker.err = taker.take(given)
+	taker.panicked = false
+	if taker.err != nil {
 		return -1
 	}
 	return 0
 }
 
 // Run gives count layers from first on to a function, in order, while others are computed. An error of
-// the function stops the run and is returned; a panic goes on. job may be nil.
+// the function stops the run and is returned; a panic goes on. The function
+// must not end its goroutine (runtime.Goexit, FailNow of a test). job may be nil.
 func (s *Slicer) Run(first, count uint64, job *Job, take func(Layer) error) error {
 	defer runtime.KeepAlive(s)
 	defer runtime.KeepAlive(job)
@@ -467,7 +505,7 @@ func (s *Slicer) Run(first, count uint64, job *Job, take func(Layer) error) erro
 	err := call(func() C.msq_status {
 		return C.run(s.raw, C.uint64_t(first), C.uint64_t(count), C.uintptr_t(handle), job.pointer())
 	})
-	if taker.panic != nil {
+	if taker.panicked {
 		panic(taker.panic)
 	}
 	if taker.err != nil {

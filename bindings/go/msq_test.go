@@ -4,6 +4,8 @@ package msq
 import (
 	"errors"
 	"math"
+	"os"
+	"path/filepath"
 	"runtime"
 	"strings"
 	"testing"
@@ -65,13 +67,59 @@ func TestErrorsAndPanicsOfTheFunctionStopTheRun(t *testing.T) {
 	_ = slicer.Run(0, slicer.LayerCount, nil, func(Layer) error { panic("oh") })
 }
 
+func TestPanicsWithoutAValueStopTheRun(t *testing.T) {
+	_, model := foamModel(t)
+	slicer, err := model.Slicer(Plan{Pitch: 0.5, LayerHeight: 0.5})
+	check(t, err)
+	calls, returned := 0, false
+	func() {
+		defer func() { recover() }() // nil, or since 1.21 an error
+		_ = slicer.Run(0, slicer.LayerCount, nil, func(Layer) error { calls++; panic(nil) })
+		returned = true
+	}()
+	if calls != 1 || returned {
+		t.Errorf("%d calls, returned: %v", calls, returned)
+	}
+	check(t, slicer.Run(0, 1, nil, func(Layer) error { return nil }))
+}
+
+func refused(t *testing.T, err error, message string) {
+	t.Helper()
+	var refused *Error
+	if !errors.As(err, &refused) || refused.Status != ErrArgument || !strings.Contains(err.Error(), message) {
+		t.Error(err)
+	}
+}
+
+func TestNumbersThatDoNotFitAreRefused(t *testing.T) {
+	_, err := NewContext(-1)
+	refused(t, err, "threads is -1; it must be from 0 to 4294967295")
+	large := int64(math.MaxUint32) + 1
+	if int64(int(large)) == large { // of 64 bits
+		_, err = NewContext(int(large))
+		refused(t, err, "threads is 4294967296; it must be from 0 to 4294967295")
+	}
+}
+
+func TestTextsWithAZeroByteAreRefused(t *testing.T) {
+	context, _ := foamModel(t)
+	path := filepath.Join(t.TempDir(), "a.off")
+	text := "OFF\n4 4 0\n0 0 0\n6 0 0\n0 6 0\n0 0 6\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+	check(t, os.WriteFile(path, []byte(text), 0o600))
+	_, err := ShapeFromFile(context, path)
+	check(t, err)
+	_, err = ShapeFromFile(context, path+"\x00.png")
+	refused(t, err, "has a zero byte at")
+	_, err = DocumentFromJSON(context, []byte("{\"msq_model\": 1}\x00"))
+	if err == nil {
+		t.Error("the text was cut at its zero byte")
+	}
+}
+
 func TestRefusalsHaveStatusAndMessage(t *testing.T) {
 	context, _ := foamModel(t)
 	_, err := Sphere(context, [3]float64{}, -1)
-	var refused *Error
-	if !errors.As(err, &refused) || refused.Status != ErrArgument || !strings.Contains(err.Error(), "-1") {
-		t.Error(err)
-	}
+	refused(t, err, "-1")
 }
 
 func TestFoamsAreStretched(t *testing.T) {

@@ -16,8 +16,12 @@ function check(status)
     error(unsafe_string(msq_status_name(status)), ": ", unsafe_string(msq_error_message()))
 end
 
-# A copy of a struct with other values of some fields. Tuples are the arrays of C.
+# A copy of a struct with other values of some fields. Tuples are the arrays of C. Throws an ArgumentError if the struct
+# has no field of a name.
 function with(value::T; fields...) where {T}
+    for name in keys(fields)
+        hasfield(T, name) || throw(ArgumentError(string(nameof(T), " has no field ", name)))
+    end
     T((convert(fieldtype(T, name), get(fields, name, getfield(value, name))) for name in fieldnames(T))...)
 end
 

@@ -68,6 +68,16 @@ namespace Msq
             return (byte*)Pin(Encoding.UTF8.GetBytes(text + "\0"));
         }
 
+        /// <summary>A number that must not be negative.</summary>
+        internal static ulong Unsigned(long value, string name)
+        {
+            if (value < 0)
+                throw new ArgumentOutOfRangeException(name, name + " is " + value + "; it must be at least 0");
+            return (ulong)value;
+        }
+
+        internal static uint Unsigned(int value, string name) => (uint)Unsigned((long)value, name);
+
         /// <summary>What a callback gets as `user`.</summary>
         internal void* User(object user) => (void*)GCHandle.ToIntPtr(Keep(GCHandle.Alloc(user)));
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 using System;
 using System.Collections.Concurrent;
+using System.Collections.Generic;
 using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
-using System.Threading;
 using System.Threading.Tasks;
 using Msq.Interop;
 
@@ -23,32 +23,40 @@ namespace Msq
     /// called msq.</summary>
     internal static unsafe class Callbacks
     {
-        private sealed class Failure
+        private struct Failure
         {
             internal int Code;
             internal ExceptionDispatchInfo Info;
         }
 
-        // Where several threads fail in one call, msq carries one code. The others are overwritten later.
-        private static readonly Failure[] failures = new Failure[256];
+        // Where several threads fail in one call, msq carries one code. The others stay until they are the oldest.
+        private const int MaxFailures = 256;
+        private static readonly List<Failure> failures = new List<Failure>(); // also the lock
         private static int count;
 
         private static int Keep(Exception error)
         {
-            int number = Interlocked.Increment(ref count) & 0x3fffffff;
-            int code = int.MinValue + number;
-            failures[number % failures.Length] = new Failure
-            { Code = code, Info = ExceptionDispatchInfo.Capture(error) };
-            return code;
+            var failure = new Failure { Info = ExceptionDispatchInfo.Capture(error) };
+            lock (failures)
+            {
+                count = (count + 1) & 0x3fffffff;
+                failure.Code = int.MinValue + count;
+                if (failures.Count == MaxFailures) failures.RemoveAt(0);
+                failures.Add(failure);
+            }
+            return failure.Code;
         }
 
         internal static void Rethrow(int code)
         {
-            if (code >= int.MinValue + 0x40000000) return;
-            int index = (code - int.MinValue) % failures.Length;
-            Failure found = failures[index];
-            if (found == null || found.Code != code) return;
-            Interlocked.CompareExchange(ref failures[index], null, found);
+            Failure found;
+            lock (failures)
+            {
+                int index = failures.FindLastIndex(one => one.Code == code);
+                if (index < 0) return;
+                found = failures[index];
+                failures.RemoveAt(index);
+            }
             found.Info.Throw();
         }
 

@@ -36,9 +36,10 @@ namespace Msq
         private static msq_context* Create(ContextOptions options)
         {
             msq_context_def def = msq_context_def.Defaults();
-            def.threads = checked((uint)options.Threads);
-            if (options.CacheBytes.HasValue) def.cache_bytes = checked((ulong)options.CacheBytes.Value);
-            def.memory_limit = checked((ulong)options.MemoryLimit);
+            def.threads = Call.Unsigned(options.Threads, nameof(options.Threads));
+            if (options.CacheBytes.HasValue)
+                def.cache_bytes = Call.Unsigned(options.CacheBytes.Value, nameof(options.CacheBytes));
+            def.memory_limit = Call.Unsigned(options.MemoryLimit, nameof(options.MemoryLimit));
             def.cache_policy = (int)options.CachePolicy;
             if (options.UseThreadPool) def.parallel_for = Callbacks.ParallelFor;
             if (options.Warning != null)

@@ -89,7 +89,7 @@ namespace Msq
         public int Stride => checked((int)Open->stride);
         /// <summary>Number of solid samples.</summary>
         public long InsideCount => (long)Open->inside_count;
-        /// <summary>Stride * Height bytes.</summary>
+        /// <summary>Stride * Height bytes. Contours: null.</summary>
         public IntPtr Pointer => (IntPtr)Open->data;
 
 #if MSQ_SPAN || NETCOREAPP2_1_OR_GREATER || NETSTANDARD2_1_OR_GREATER
@@ -101,7 +101,8 @@ namespace Msq
         public void CopyTo(byte[] target)
         {
             if (target == null) throw new ArgumentNullException(nameof(target));
-            Marshal.Copy(Pointer, target, 0, checked(Stride * Height));
+            int bytes = checked(Stride * Height);
+            if (bytes > 0) Marshal.Copy(Pointer, target, 0, bytes); // contours: null
         }
 
         /// <summary>The layer in memory of its own.</summary>
@@ -141,7 +142,7 @@ namespace Msq
             def.layer_height = options.LayerHeight;
             def.output = (int)options.Output;
             def.orientation = (uint)options.Orientation;
-            def.grey_samples = checked((uint)options.GreySamples);
+            def.grey_samples = Call.Unsigned(options.GreySamples, nameof(options.GreySamples));
             def.length_scale = options.LengthScale;
             def.layer_z_count = (ulong)(options.Heights?.Length ?? 0);
             if (options.Region != null)
@@ -202,7 +203,7 @@ namespace Msq
         {
             double z;
             using (var call = new Call())
-                call.Check(Abi.msq_slicer_layer_z(In(call), unchecked((ulong)index), &z));
+                call.Check(Abi.msq_slicer_layer_z(In(call), Call.Unsigned(index, nameof(index)), &z));
             return z;
         }
 
@@ -221,8 +222,9 @@ namespace Msq
             if (take == null) throw new ArgumentNullException(nameof(take));
             using (var call = new Call(cancel, progress))
             {
-                call.Check(Abi.msq_slicer_run(In(call), unchecked((ulong)first), unchecked((ulong)count),
-                                              Callbacks.Layer, call.User(take), call.Job));
+                call.Check(Abi.msq_slicer_run(In(call), Call.Unsigned(first, nameof(first)),
+                                              Call.Unsigned(count, nameof(count)), Callbacks.Layer,
+                                              call.User(take), call.Job));
                 call.Done(count);
             }
         }
@@ -234,7 +236,8 @@ namespace Msq
             var data = new byte[checked((int)info.layer_bytes)];
             fixed (byte* buffer = data)
             using (var call = new Call(cancel, null))
-                call.Check(Abi.msq_slice_layer(In(call), (ulong)index, buffer, (ulong)data.Length, call.Job));
+                call.Check(Abi.msq_slice_layer(In(call), Call.Unsigned(index, nameof(index)), buffer,
+                                               (ulong)data.Length, call.Job));
             return new Layer(index, z, output, Width, Height, Stride, data);
         }
 
@@ -253,7 +256,8 @@ namespace Msq
             msq_contours_def def = options.Raw();
             msq_contours* made;
             using (var call = new Call(cancel, null))
-                call.Check(Abi.msq_slicer_contours(In(call), unchecked((ulong)index), &def, &made, call.Job));
+                call.Check(Abi.msq_slicer_contours(In(call), Call.Unsigned(index, nameof(index)), &def, &made,
+                                                   call.Job));
             return new Contours(made);
         }
 

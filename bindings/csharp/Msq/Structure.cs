@@ -170,7 +170,7 @@ namespace Msq
             msq_foam_def def = msq_foam_def.Defaults();
             Grid.Set(&def.grid, grid);
             def.method = (int)options.Method;
-            def.seed = unchecked((ulong)options.Seed);
+            def.seed = unchecked((ulong)options.Seed); // all 64 bits
             def.weight = options.Weight;
             if (options.Jitter.HasValue) def.jitter = options.Jitter.Value;
             using (var call = new Call())

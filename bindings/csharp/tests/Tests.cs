@@ -499,8 +499,47 @@ namespace Msq.Tests
             Layer bytes = SlicerOf(model, LayerOutput.Bytes).Layer(3);
             for (int x = 0; x < 20; ++x) Equal(seen[3].IsInside(x, 6), bytes.IsInside(x, 6));
             Equal(StatusCode.Argument, Throws<MsqException>(() => slicer.Layer(20)).Status);
-            Equal(StatusCode.Argument, Throws<MsqException>(() => slicer.Layer(-1)).Status);
             Throws<ArgumentOutOfRangeException>(() => bytes.IsInside(20, 0));
+        }
+
+        private static void Refuses(string name, Action action, [CallerLineNumber] int line = 0)
+        {
+            var error = Throws<ArgumentOutOfRangeException>(action, line);
+            Equal(name, error.ParamName, line);
+            True(error.Message.Contains(name + " is -1; it must be at least 0"), line);
+        }
+
+        static void TestNegativeNumbersAreRefused()
+        {
+            Model model = Lattice();
+            Slicer slicer = SlicerOf(model);
+            int calls = 0;
+            Refuses("count", () => slicer.Run(0, -1, layer => ++calls));
+            Refuses("first", () => slicer.Run(-1, 1, layer => ++calls));
+            Equal(0, calls);
+            Refuses("index", () => slicer.Layer(-1));
+            Refuses("index", () => slicer.Z(-1));
+            Refuses("index", () => slicer.Contours(-1, new ContoursOptions(0.1)));
+            Refuses("GreySamples", () => new Slicer(model, new SlicerOptions(0.5, 0.5) { GreySamples = -1 }));
+            Refuses("Threads", () => new Context(new ContextOptions { Threads = -1 }));
+            Refuses("CacheBytes", () => new Context(new ContextOptions { CacheBytes = -1 }));
+            Refuses("MemoryLimit", () => new Context(new ContextOptions { MemoryLimit = -1 }));
+        }
+
+        static void TestLayersOfContours()
+        {
+            if (!Library.HasDocuments) return;
+            string text = "{\"msq_model\": 1, \"scales\": [{\"shape\": {\"box\": {\"min\": [0, 0, 0], \"max\": " +
+                "[4, 4, 4]}}}], \"slicing\": {\"pitch\": 0.5, \"layer_height\": 0.5, \"outputs\": " +
+                "[{\"output\": \"contours\", \"contours\": {\"tolerance\": 0.1}}]}}";
+            int calls = 0;
+            Document.FromJson(context, text).Slicer().Run(layer =>
+            {
+                ++calls;
+                Equal(IntPtr.Zero, layer.Pointer);
+                Equal(0, layer.Copy().Data.Length);
+            });
+            Equal(8, calls);
         }
 
         static void TestSlicerOptions()
@@ -535,6 +574,32 @@ namespace Msq.Tests
             Equal(3, calls);
             True(caught.StackTrace.Contains("TestExceptionsOfCallbacks"));
             slicer.Run(layer => { }); // the next call has forgotten it
+        }
+
+        // A thread that waits for its turn finds its exception, however many others throw meanwhile.
+        static void TestExceptionsOfManyThreads()
+        {
+            Slicer slicer = SlicerOf(Lattice());
+            int wrong = 0;
+            var threads = Enumerable.Range(0, 8).Select(_ => new Thread(() =>
+            {
+                for (int i = 0; i < 1500; ++i)
+                {
+                    var thrown = new OwnException();
+                    try
+                    {
+                        slicer.Run(0, 1, layer => throw thrown);
+                        Interlocked.Increment(ref wrong);
+                    }
+                    catch (Exception caught)
+                    {
+                        if (!ReferenceEquals(thrown, caught)) Interlocked.Increment(ref wrong);
+                    }
+                }
+            })).ToArray();
+            foreach (Thread one in threads) one.Start();
+            foreach (Thread one in threads) one.Join();
+            Equal(0, wrong);
         }
 
         static void TestNestedExceptions()
@@ -798,7 +863,6 @@ namespace Msq.Tests
                 True(own.PeakMemoryBytes > 0 && own.PeakMemoryBytes <= 1 << 26 && own.MemoryBytes <= own.PeakMemoryBytes);
                 own.ClearCache();
             }
-            Throws<OverflowException>(() => new Context(new ContextOptions { Threads = -1 }));
         }
     }
 }
