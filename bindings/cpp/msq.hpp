@@ -7,12 +7,13 @@
 /// All classes are thin: a handle is one pointer, and copying it adds a reference.
 ///
 /// Errors. A function that fails throws msq::Error, or msq::Cancelled if the job was cancelled.
+/// Arrays whose lengths do not fit throw std::invalid_argument.
 ///
-/// Callbacks. A callback is anything that can be called with the given arguments. It returns
-/// nothing, or an int32_t: 0 for success, another code to stop the call, which then throws
-/// msq::Error with that host_code(). An exception that leaves a callback stops the call of msq,
-/// which throws it again on the thread that called. Only warnings must not throw: what they throw
-/// is dropped.
+/// Callbacks. A callback is anything that can be called with the given arguments: a lambda, a
+/// function, a std::function. It returns nothing, or an int32_t: 0 for success, another code to
+/// stop the call, which then throws msq::Error with that host_code(). An exception that leaves a
+/// callback stops the call of msq, which throws it again on the thread that called. Only warnings
+/// must not throw: what they throw is dropped.
 ///
 /// Threads. As in msq.h: handles may be shared; callbacks of objects with concurrent = 1 run on any
 /// thread.
@@ -194,6 +195,16 @@ Report report(Call&& call) {
   return result;
 }
 
+/// How many groups of `each` an array has: "there are 4 coordinates; there must be 3 per point".
+inline size_t groups(const char* function, size_t count, const char* what, size_t each,
+                     const char* group) {
+  if (count % each != 0)
+    throw std::invalid_argument(std::string(function) + ": there are " + std::to_string(count) +
+                                " " + what + "; there must be " + std::to_string(each) + " per " +
+                                group);
+  return count / each;
+}
+
 }  // namespace detail
 
 using ContextDef = detail::Definition<msq_context_def, msq_context_def_init>;
@@ -261,7 +272,7 @@ inline PointsDef points(Span<const double> triples) {
   def.kind = MSQ_POINTS_ARRAY;
   def.coordinate_type = MSQ_FLOAT64;
   def.coordinates = triples.data();
-  def.count = triples.size() / 3;
+  def.count = detail::groups("msq::points", triples.size(), "coordinates", 3, "point");
   return def;
 }
 
@@ -368,20 +379,22 @@ void give(Def& def, std::unique_ptr<Callbacks> callbacks, Create&& create) {
   (void)callbacks.release();
 }
 
-/// A callback of one call, which outlives the call: the function for msq, and its user pointer.
-template <class F, class... Arguments>
-int32_t call(void* user, Arguments... arguments) {
-  return result_of([&] { return (*static_cast<std::remove_reference_t<F>*>(user))(arguments...); });
-}
-/// The same for functions that take a struct by reference.
-template <class F, class Struct>
-int32_t call_with(void* user, const Struct* argument) {
-  return result_of([&] { return (*static_cast<std::remove_reference_t<F>*>(user))(*argument); });
-}
+/// A callback of one call, which outlives the call. Its address is the user pointer for msq. (That
+/// of the callable would not do: a pointer to a function is no void*.)
 template <class F>
-void* user_of(F& function) {
-  return const_cast<void*>(static_cast<const volatile void*>(std::addressof(function)));
-}
+struct Callback {
+  F& function;
+
+  template <class... Arguments>
+  static int32_t call(void* user, Arguments... arguments) {
+    return result_of([&] { return static_cast<Callback*>(user)->function(arguments...); });
+  }
+  /// The same for functions that take a struct by reference.
+  template <class Struct>
+  static int32_t call_with(void* user, const Struct* argument) {
+    return result_of([&] { return static_cast<Callback*>(user)->function(*argument); });
+  }
+};
 
 }  // namespace detail
 
@@ -600,9 +613,11 @@ class Shape : public detail::Handle<msq_shape, msq_shape_retain, msq_shape_relea
     MeshDef def;
     def.coordinate_type = type;
     def.vertices = vertices;
-    def.vertex_count = coordinates / 3;
+    def.vertex_count =
+        detail::groups("msq::Shape::from_mesh", coordinates, "coordinates", 3, "vertex");
     def.triangles = triangles.data();
-    def.triangle_count = triangles.size() / 3;
+    def.triangle_count =
+        detail::groups("msq::Shape::from_mesh", triangles.size(), "indices", 3, "triangle");
     return def;
   }
 };
@@ -667,8 +682,9 @@ class Field : public detail::Handle<msq_field, msq_field_retain, msq_field_relea
   }
   /// curve: pairs of argument and value, see msq_field_map.
   static Field map(const Context& context, const Field& argument, Span<const double> curve) {
+    const size_t pairs = detail::groups("msq::Field::map", curve.size(), "numbers", 2, "pair");
     return Field(std::in_place, [&](auto** made) {
-      return msq_field_map(context.get(), argument.get(), curve.data(), curve.size() / 2, made);
+      return msq_field_map(context.get(), argument.get(), curve.data(), pairs, made);
     });
   }
   static Field grid(const Context& context, const GridFieldDef& def) {
@@ -680,7 +696,8 @@ class Field : public detail::Handle<msq_field, msq_field_retain, msq_field_relea
                     const std::array<uint64_t, 3>& size, const Vec3& origin, const Vec3& spacing) {
     if (size[0] * size[1] * size[2] != values.size())
       throw std::invalid_argument("msq::Field::grid: there are " + std::to_string(values.size()) +
-                                  " values; size has other counts");
+                                  " values; size has " + std::to_string(size[0]) + " x " +
+                                  std::to_string(size[1]) + " x " + std::to_string(size[2]));
     GridFieldDef def;
     def.image.values = values.data();
     def.image.value_type = MSQ_FLOAT64;
@@ -933,8 +950,9 @@ class Structure
   /// fn(const msq_strut* struts, uint64_t count)
   template <class F>
   void struts(const Context& context, const StrutsDef& def, F&& fn, const Job& job = {}) const {
+    detail::Callback<F> callback{fn};
     check(msq_structure_struts(context.get(), get(), &def,
-                               detail::call<F, const msq_strut*, uint64_t>, detail::user_of(fn),
+                               callback.template call<const msq_strut*, uint64_t>, &callback,
                                job.get()));
   }
   StrutGraph strut_graph(const Context& context, const StrutsDef& def, const Job& job = {}) const {
@@ -947,7 +965,7 @@ class Structure
   void onset(const Context& context, const msq_points_def& points, int32_t value,
              Span<double> onsets, Span<double> gradients = {}, const Job& job = {}) const {
     check(msq_set_onset(context.get(), get(), &points, value, onsets.data(), onsets.size(),
-                        gradients.data(), gradients.size() / 3, job.get()));
+                        gradients.data(), gradients.size(), job.get()));
   }
 
   /// A curve from volume fraction to parameter, and the parameter of the target.
@@ -1203,14 +1221,16 @@ class Model : public detail::Handle<msq_model, msq_model_retain, msq_model_relea
   /// fn(const msq_surface_slab&)
   template <class F>
   void surface_mesh(const SurfaceDef& def, F&& fn, const Job& job = {}) const {
-    check(msq_surface_mesh(get(), &def, detail::call_with<F, msq_surface_slab>, detail::user_of(fn),
+    detail::Callback<F> callback{fn};
+    check(msq_surface_mesh(get(), &def, callback.template call_with<msq_surface_slab>, &callback,
                            job.get()));
   }
   /// fn(const msq_file_part&). format: an msq_surface_format.
   template <class F>
   void surface_file(const SurfaceDef& def, int32_t format, F&& fn, const Job& job = {}) const {
-    check(msq_surface_file(get(), &def, format, detail::call_with<F, msq_file_part>,
-                           detail::user_of(fn), job.get()));
+    detail::Callback<F> callback{fn};
+    check(msq_surface_file(get(), &def, format, callback.template call_with<msq_file_part>,
+                           &callback, job.get()));
   }
 
   /// hits: one per ray.
@@ -1231,8 +1251,9 @@ class Model : public detail::Handle<msq_model, msq_model_retain, msq_model_relea
   template <class F>
   void render(const Camera& camera, const RenderDef& def, const Frame& frame, const QueryDef& query,
               F&& fn, const Job& job = {}) const {
-    check(msq_render(get(), &camera, &def, &query, &frame, detail::call_with<F, msq_render_pass>,
-                     detail::user_of(fn), job.get()));
+    detail::Callback<F> callback{fn};
+    check(msq_render(get(), &camera, &def, &query, &frame,
+                     callback.template call_with<msq_render_pass>, &callback, job.get()));
   }
 
  private:
@@ -1324,7 +1345,8 @@ class Slicer : public detail::Handle<msq_slicer, msq_slicer_retain, msq_slicer_r
   /// fn(const msq_layer&), once per layer in ascending order, on this thread.
   template <class F>
   void run(uint64_t first, uint64_t count, F&& fn, const Job& job = {}) const {
-    check(msq_slicer_run(get(), first, count, detail::call_with<F, msq_layer>, detail::user_of(fn),
+    detail::Callback<F> callback{fn};
+    check(msq_slicer_run(get(), first, count, callback.template call_with<msq_layer>, &callback,
                          job.get()));
   }
   /// All layers.
@@ -1354,9 +1376,10 @@ class Slicer : public detail::Handle<msq_slicer, msq_slicer_retain, msq_slicer_r
   template <class F>
   msq_printability_report printability(const PrintabilityDef& def, F&& fn,
                                        const Job& job = {}) const {
+    detail::Callback<F> callback{fn};
     return detail::report<msq_printability_report>([&](auto* r) {
-      return msq_printability(get(), &def, detail::call<F, const msq_finding*, uint64_t>,
-                              detail::user_of(fn), r, job.get());
+      return msq_printability(get(), &def, callback.template call<const msq_finding*, uint64_t>,
+                              &callback, r, job.get());
     });
   }
   msq_printability_report printability(const PrintabilityDef& def = PrintabilityDef(),

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thread of Slicer.layers(): runs the slicer and sends each layer to the loop.
+// The thread of Slicer.layers(): runs the slicer and sends each layer to layer_thread.js.
 import { parentPort, workerData } from 'node:worker_threads';
 import koffi from 'koffi';
-import { C, abi, types } from './msq.js';
+import { MSQ_OK } from './abi.js';
+import { C } from './native.js';
+import { types } from './types.js';
 
-const { slicer, job, first, count, ahead, taken } = workerData;
+const { slicer, job, first, count, ahead, taken, over } = workerData;
 let sent = 0;
 
 function take(_user, address) {
@@ -25,5 +27,10 @@ function take(_user, address) {
   }
 }
 
-const status = C.msq_slicer_run(slicer, first, count, take, null, job);
-if (status !== abi.MSQ_OK) parentPort.postMessage({ status, text: C.msq_error_message() });
+try {
+  const status = C.msq_slicer_run(slicer, first, count, take, null, job);
+  if (status !== MSQ_OK) parentPort.postMessage({ status, text: C.msq_error_message() });
+} finally {
+  Atomics.store(over, 0, 1);
+  Atomics.notify(over, 0);
+}

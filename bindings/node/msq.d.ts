@@ -3,6 +3,8 @@
 import type { Definitions, Functions, Reports, msq_param, msq_slicer_report } from './abi.js';
 
 export * as abi from './abi.js';
+/** They refuse integers, texts and structs that do not fit. What an address points to, and how much memory C writes,
+ * is not checked. */
 export declare const C: Functions;
 export declare const types: Record<string, unknown>;
 
@@ -35,6 +37,7 @@ export declare function report<N extends keyof Reports>(
 
 export type Vector = readonly [number, number, number];
 
+/** An argument of another kind, or a closed one, is refused with a TypeError. */
 export declare class Handle {
   readonly kind: string;
   get pointer(): bigint;
@@ -113,5 +116,7 @@ export declare class Slicer extends Handle {
   private constructor();
   readonly info: msq_slicer_report;
   readonly layerCount: number;
+  /** Throws a RangeError if a number is out of range; ahead is at least 1. Call return() on an iterator that is not
+   * finished: its thread waits for it. */
   layers(first?: number, count?: number, options?: { ahead?: number }): AsyncGenerator<Layer, void, void>;
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -127,6 +128,122 @@ void sets_points_and_layers_agree(void**) {
 struct Odd : std::exception {
   const char* what() const noexcept override { return "odd"; }
 };
+
+uint64_t taken = 0;
+void take(const msq_layer&) {
+  ++taken;
+}
+int32_t stop_at_two(const msq_layer& layer) noexcept {
+  return layer.index == 2 ? -7 : 0;
+}
+void take_struts(const msq_strut*, uint64_t count) {
+  taken += count;
+}
+void take_slab(const msq_surface_slab& slab) {
+  taken += slab.vertex_count;
+}
+
+struct Counter {
+  uint64_t count = 0;
+  void operator()(const msq_layer&) { ++count; }
+};
+
+void callbacks_are_anything_that_can_be_called(void**) {
+  const msq::Context context;
+  const msq::Slicer layers = slicer(foam_model(context));
+  const uint64_t count = layers.info().layer_count;
+  taken = 0;
+  layers.run(take);
+  assert_int_equal(taken, count);
+  layers.run(&take);
+  layers.run(0, 1, take);
+  assert_int_equal(taken, 2 * count + 1);
+  assert_non_null(std::strstr(thrown_by([&] { layers.run(stop_at_two); }).c_str(), "-7"));
+
+  Counter counter;
+  layers.run(counter);
+  assert_int_equal(counter.count, count);
+  layers.run(Counter());
+  const auto constant = [&](const msq_layer&) { ++taken; };
+  layers.run(constant);
+  layers.run(std::function<void(const msq_layer&)>(take));
+  assert_int_equal(taken, 4 * count + 1);
+
+  taken = 0;
+  msq::StrutsDef def;
+  for (double& max : def.max) max = 10;
+  foam(context, msq::param(0.3)).struts(context, def, take_struts);
+  assert_true(taken > 1000);
+  taken = 0;
+  msq::SurfaceDef surface;
+  surface.pitch = 1;
+  msq::Model(context, {cube(context)}).surface_mesh(surface, take_slab);
+  assert_true(taken > 0);
+}
+
+/// The message of the std::invalid_argument that a call throws.
+template <class Call>
+std::string refusal_of(Call&& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  fail_msg("nothing was refused");
+  return "";
+}
+
+void arrays_of_wrong_lengths_are_refused(void**) {
+  const msq::Context context;
+  const std::vector<double> numbers(10);
+  const msq::Span<const double> nine(numbers.data(), 9);
+  assert_string_equal(refusal_of([&] { msq::points(numbers); }).c_str(),
+                      "msq::points: there are 10 coordinates; there must be 3 per point");
+  assert_int_equal(msq::points(nine).count, 3);
+
+  // A tetrahedron, and one number or index more.
+  const std::vector<double> longer = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 5};
+  const std::vector<float> floats(longer.begin(), longer.end());
+  const std::vector<uint32_t> indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3, 0};
+  const msq::Span<const double> vertices(longer.data(), 12);
+  const msq::Span<const uint32_t> triangles(indices.data(), 12);
+  assert_true(msq::Shape::from_mesh(context, vertices, triangles).info().volume > 0.16);
+  const char* per_vertex =
+      "msq::Shape::from_mesh: there are 13 coordinates; there must be 3 per vertex";
+  assert_string_equal(
+      refusal_of([&] { msq::Shape::from_mesh(context, longer, triangles); }).c_str(), per_vertex);
+  assert_string_equal(
+      refusal_of([&] { msq::Shape::from_mesh(context, floats, triangles); }).c_str(), per_vertex);
+  assert_string_equal(
+      refusal_of([&] { msq::Shape::from_mesh(context, vertices, indices); }).c_str(),
+      "msq::Shape::from_mesh: there are 13 indices; there must be 3 per triangle");
+
+  const msq::Field field = msq::Field::gradient(context, {0, 0, 0}, 0, {1, 0, 0}, 1);
+  const double curve[3] = {0, 0, 1};
+  assert_string_equal(refusal_of([&] { msq::Field::map(context, field, curve); }).c_str(),
+                      "msq::Field::map: there are 3 numbers; there must be 2 per pair");
+  assert_string_equal(refusal_of([&] {
+                        msq::Field::grid(context, numbers, {2, 2, 3}, {0, 0, 0}, {1, 1, 1});
+                      }).c_str(),
+                      "msq::Field::grid: there are 10 values; size has 2 x 2 x 3");
+  assert_string_equal(refusal_of([&] { msq::period(0, numbers, nine); }).c_str(),
+                      "msq::period: there are 10 positions and 9 cell_sizes");
+}
+
+void onsets_have_gradients(void**) {
+  const msq::Context context;
+  const msq::Structure structure = foam(context, msq::param(0.3));
+  const double point[3] = {1, 1.3, 0.7};
+  std::vector<double> onset(1), gradient(3), shorter(2);
+  structure.onset(context, msq::points(point), MSQ_ONSET_PLAIN, onset, gradient);
+  double moved[3], other[1];
+  for (size_t axis = 0; axis < 3; ++axis) moved[axis] = point[axis] + 1e-4 * gradient[axis];
+  structure.onset(context, msq::points(moved), MSQ_ONSET_PLAIN, other);
+  assert_true(other[0] > onset[0]);
+  const std::string message = thrown_by(
+      [&] { structure.onset(context, msq::points(point), MSQ_ONSET_PLAIN, onset, shorter); });
+  assert_non_null(std::strstr(message.c_str(), "gradient_count is 2"));
+}
 
 void exceptions_of_callbacks_come_through(void**) {
   const msq::Context context;
@@ -449,6 +566,9 @@ int main() {
       cmocka_unit_test(handles_count_references),
       cmocka_unit_test(errors_have_status_and_message),
       cmocka_unit_test(sets_points_and_layers_agree),
+      cmocka_unit_test(callbacks_are_anything_that_can_be_called),
+      cmocka_unit_test(arrays_of_wrong_lengths_are_refused),
+      cmocka_unit_test(onsets_have_gradients),
       cmocka_unit_test(exceptions_of_callbacks_come_through),
       cmocka_unit_test(exceptions_of_objects_come_through),
       cmocka_unit_test(callbacks_are_freed_with_their_object),
