@@ -12,23 +12,19 @@ import hashlib
 import itertools
 import operator
 import sys
-import weakref
 from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi
 from ._arrays import start_of
+from ._lent import Lent
 from ._library import keep_exception
 from ._signals import expect_callbacks
 
 # Of each object: the functions by the names that the definition has for them.
 _functions: Dict[int, Dict[str, Callable[..., Any]]] = {}
 _numbers = itertools.count(1)
-
-
-def _view(pointer: Any, kind: Any, count: int) -> np.ndarray:
-    return np.frombuffer((kind * count).from_address(start_of(pointer)), kind)
 
 
 class HostPoints(NamedTuple):
@@ -39,31 +35,30 @@ class HostPoints(NamedTuple):
     cells: np.ndarray  #: (n, 3), int32: the cell that each point lies in
 
 
-def _lend(function: Callable[..., Any], count: int, lent: Sequence[Tuple[Any, Any]], out: Any,
+def _lend(function: Callable[..., Any], count: int, given: Sequence[Tuple[Any, Any]], out: Any,
           kind: Any, call: Callable[..., Any]) -> int:
     """Lends triples in C's memory to call(function, arrays ...), and writes what it answers."""
+    lent = Lent()
     try:
-        arrays = []
-        for pointer, element in lent:
-            array = _view(pointer, element, 3 * count)
-            array.flags.writeable = False
-            arrays.append(array)
-        array = None
-        kept = [weakref.ref(array) for array in arrays]  # every view refers to one
-        triples = [array.reshape(count, 3) for array in arrays]
-        del array, arrays
-        answers = np.asarray(call(function, *triples))
-        if answers.shape != (count,):
-            raise ValueError(f"{_name(function)} answered {count} points by an array of shape "
-                             f"{answers.shape}; it must be ({count},)")
-        _view(out, kind, count)[:] = answers != 0 if kind is ctypes.c_uint8 else answers
-        del answers, triples
-        if any(reference() is not None for reference in kept):
+        _ask(function, count, given, out, kind, call, lent)
+        if lent.are_kept():
             raise BufferError(f"the points that {_name(function)} was called with are kept beyond "
                               "the call, and their memory is not: keep a copy")
         return 0
     except BaseException as error:  # none may pass through C
+        lent.take_back(error)
         return keep_exception(error)
+
+
+def _ask(function: Callable[..., Any], count: int, given: Sequence[Tuple[Any, Any]], out: Any,
+         kind: Any, call: Callable[..., Any], lent: Lent) -> None:
+    answers = np.asarray(call(function, *(lent.array(pointer, element, 3 * count).reshape(count, 3)
+                                          for pointer, element in given)))
+    if answers.shape != (count,):
+        raise ValueError(f"{_name(function)} answered {count} points by an array of shape "
+                         f"{answers.shape}; it must be ({count},)")
+    values = np.frombuffer((kind * count).from_address(start_of(out)), kind)
+    values[:] = answers != 0 if kind is ctypes.c_uint8 else answers
 
 
 def _name(function: Callable[..., Any]) -> str:

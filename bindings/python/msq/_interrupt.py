@@ -5,6 +5,7 @@ Python runs the handlers of signals on the main thread, and never while that thr
 """
 from __future__ import annotations
 
+import queue
 import threading
 from typing import Any, Callable, List, Optional, TypeVar
 
@@ -16,11 +17,70 @@ from .context import Job, job_reference
 Made = TypeVar("Made")
 
 
-def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool = True) -> None:
+class Relay:
+    """Functions that a call has run on the thread that waits for it."""
+
+    def __init__(self) -> None:
+        self._waiting: "queue.SimpleQueue[Optional[_Request]]" = queue.SimpleQueue()
+        self._is_open = True
+
+    def run(self, function: Callable[[], Any]) -> Any:
+        """What function() returns or raises on the other thread. Not run if that has been
+        interrupted: then None."""
+        request = _Request(function)
+        self._waiting.put(request)
+        while self._is_open or request.is_begun:
+            if request.done.wait(_LOOK):
+                break
+        if request.raised:
+            raise request.raised.pop()
+        return request.result
+
+    def serve(self, seconds: float) -> None:
+        """Runs what comes within that time, or waits."""
+        try:
+            request = self._waiting.get(timeout=seconds)
+        except queue.Empty:
+            return
+        if request is not None:
+            request.serve()
+
+    def wake(self) -> None:
+        """Ends a wait: there is nothing more to run."""
+        self._waiting.put(None)
+
+    def close(self) -> None:
+        """No more functions are run."""
+        self._is_open = False
+
+
+class _Request:
+    """One function to be run, and what came of it."""
+
+    def __init__(self, function: Callable[[], Any]) -> None:
+        self._function = function
+        self.done = threading.Event()
+        self.is_begun = False
+        self.result: Any = None
+        self.raised: List[BaseException] = []
+
+    def serve(self) -> None:
+        try:
+            self.is_begun = True
+            self.result = self._function()
+        except BaseException as error:  # raised on the thread that asked
+            self.raised.append(error)
+        finally:
+            self.done.set()
+
+
+def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool = True,
+                  relay: Optional[Relay] = None) -> None:
     """Runs call(job), so that an interrupt cancels it.
 
     Where it is worth it, the main thread has another one make the call, and waits. After a second
-    interrupt it no longer does: the call ends in its own time, and holds what it writes to.
+    interrupt it no longer does: the call ends in its own time, and holds what it writes to. relay:
+    runs functions of the call meanwhile; it makes the call long.
     """
     if threading.current_thread() is not threading.main_thread():
         call(job_reference(job))
@@ -44,14 +104,21 @@ def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool 
             raised.append(error)
         finally:
             ended.set()
+            if relay is not None:
+                relay.wake()
 
     try:
         threading.Thread(target=run, name="msq").start()
-        while not ended.wait(_LOOK):
-            pass
+        while not ended.is_set():
+            if relay is None:
+                ended.wait(_LOOK)
+            else:
+                relay.serve(_LOOK)
         _let_handlers_run()
     except BaseException:  # of a handler of signals
         lib.msq_job_cancel(reference)
+        if relay is not None:
+            relay.close()
         if begun.wait(1):  # else there is no thread
             ended.wait()
         raise

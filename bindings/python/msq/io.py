@@ -32,7 +32,7 @@ from ._handle import lend
 from ._interrupt import interruptible
 from ._library import StructT, constant, defaults, lib, raise_error
 from .context import Job, c_path, c_text, unsigned
-from .errors import BY_STATUS, Error, HostError
+from .errors import BY_STATUS, Error, HostError, naming
 from .model import Model
 from .slicer import Slicer
 from .strut_graph import StrutGraph
@@ -216,9 +216,10 @@ def save_png(slicer: Slicer, folder: Path, *, level: int = 0, digits: int = 5,
     definition.digits = unsigned(digits, 32, "digits")
     definition.prefix = c_text(prefix, "prefix")
     path = c_path(folder)
-    return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
-                  lambda given, common, made, _job: _io.msq_io_png_create(
-                      given, path, common, ctypes.byref(definition), made))
+    with naming(folder):
+        return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
+                      lambda given, common, made, _job: _io.msq_io_png_create(
+                          given, path, common, ctypes.byref(definition), made))
 
 
 def save_sl1(slicer: Slicer, path: Path, *, panel: Panel = Panel(), level: int = 0,
@@ -257,9 +258,10 @@ def save_sl1(slicer: Slicer, path: Path, *, panel: Panel = Panel(), level: int =
     if thumbnail is not None:
         lend(definition, "thumbnail_model", thumbnail)
     file = c_path(path)
-    return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
-                  lambda given, common, made, work: _io.msq_io_sl1_create(
-                      given, file, common, ctypes.byref(definition), made, work))
+    with naming(path):
+        return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
+                      lambda given, common, made, work: _io.msq_io_sl1_create(
+                          given, file, common, ctypes.byref(definition), made, work))
 
 
 def save_svg(slicer: Slicer, path: Path, *, layout: str = "stack", units: float = 1.0,
@@ -283,9 +285,10 @@ def save_svg(slicer: Slicer, path: Path, *, layout: str = "stack", units: float 
     definition.digits = unsigned(digits, 32, "digits")
     definition.prefix = c_text(prefix, "prefix")
     name = c_path(path)
-    return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
-                  lambda given, common, made, _job: _io.msq_io_svg_create(
-                      given, name, common, ctypes.byref(definition), made))
+    with naming(path):
+        return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
+                      lambda given, common, made, _job: _io.msq_io_svg_create(
+                          given, name, common, ctypes.byref(definition), made))
 
 
 def save_slices(slicer: Slicer, path: Path, *, units: float = 1.0, layer_height: float = 0.0,
@@ -298,9 +301,10 @@ def save_slices(slicer: Slicer, path: Path, *, units: float = 1.0, layer_height:
     definition.units = units
     definition.layer_height = layer_height
     name = c_path(path)
-    return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
-                  lambda given, common, made, _job: _io.msq_io_slices_create(
-                      given, name, common, ctypes.byref(definition), made))
+    with naming(path):
+        return _write(slicer, _Options(output, threads, queue_bytes, first, count, replace, job),
+                      lambda given, common, made, _job: _io.msq_io_slices_create(
+                          given, name, common, ctypes.byref(definition), made))
 
 
 def save_mesh(model: Model, path: Path, pitch: float, *, format: Optional[str] = None,
@@ -315,8 +319,9 @@ def save_mesh(model: Model, path: Path, pitch: float, *, format: Optional[str] =
         raise ValueError(f"format is {format!r}; it must be 'stl' or 'ply'")
     definition = definition_of(pitch, box, length_scale, slab_layers)
     reference, kind = model._ref, _FORMATS[format]
-    interruptible(lambda work: _io.msq_io_surface_save(reference, ctypes.byref(definition), kind, name,
-                                                       bool(replace), work), job)
+    with naming(path):
+        interruptible(lambda work: _io.msq_io_surface_save(reference, ctypes.byref(definition), kind, name,
+                                                           bool(replace), work), job)
 
 
 def save_beams(graph: StrutGraph, path: Path, *, vertices: Any = None, triangles: Any = None,
@@ -339,7 +344,8 @@ def save_beams(graph: StrutGraph, path: Path, *, vertices: Any = None, triangles
         mesh.triangles, mesh.triangle_count = pointer(corners, ctypes.c_uint32), len(corners)
         definition.mesh = ctypes.pointer(mesh)
         kept += [points, corners, mesh]
-    _io.msq_io_beams_save(graph._ref, ctypes.byref(definition), c_path(path), bool(replace))
+    with naming(path):
+        _io.msq_io_beams_save(graph._ref, ctypes.byref(definition), c_path(path), bool(replace))
 
 
 def save_picture(path: Path, pixels: Any, *, replace: bool = False) -> None:
@@ -352,8 +358,9 @@ def save_picture(path: Path, pixels: Any, *, replace: bool = False) -> None:
     given = np.ascontiguousarray(given)
     height, width = given.shape[:2]
     channels = given.shape[2] if given.ndim == 3 else 1
-    _io.msq_io_picture_save(c_path(path), width, height, channels,
-                            pointer(given, ctypes.c_uint8), 0, bool(replace))
+    with naming(path):
+        _io.msq_io_picture_save(c_path(path), width, height, channels,
+                                pointer(given, ctypes.c_uint8), 0, bool(replace))
 
 
 __all__ = ["Panel", "Written", "panel_slicer", "save_beams", "save_mesh", "save_picture", "save_png",

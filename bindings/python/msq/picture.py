@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import threading
 from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Tuple
 
 import numpy as np
 
 from . import _abi, _png
 from ._arrays import output, pointer, vector
-from ._interrupt import interruptible
+from ._interrupt import Relay, interruptible
 from ._library import constant, defaults, keep_exception, lib
-from ._signals import HeldSignals
 from .camera import Camera, definition_of
-from .context import Job, job_reference, triple, unsigned
+from .context import Job, triple, unsigned
 from .errors import HostError
 from .points import query_of
 
@@ -133,26 +133,26 @@ def render(model: Model, camera: Optional[Camera], definition: _abi.msq_render_d
     if on_pass is None:
         interruptible(call, job, definition.width * definition.height >= _LONG)
         return picture
-    with HeldSignals() as signals:
-        try:
-            call(job_reference(job), _abi.msq_render_fn(_trampoline(on_pass, picture, signals)))
-        except HostError as error:
-            if error.code != _STOPPED:
-                raise
+    relay = Relay() if threading.current_thread() is threading.main_thread() else None
+    take_pass = _abi.msq_render_fn(_trampoline(on_pass, picture, relay))
+    try:
+        interruptible(lambda work: call(work, take_pass), job, relay=relay)
+    except HostError as error:
+        if error.code != _STOPPED:
+            raise
     return picture
 
 
 def _trampoline(on_pass: Callable[[Picture, RenderPass], Any], picture: Picture,
-                signals: HeldSignals) -> Callable[[Any, Any], int]:
+                relay: Optional[Relay]) -> Callable[[Any, Any], int]:
+    """Passes a pass on to the thread that render was called on: windows are drawn there."""
     def take_pass(_user: Any, given: Any) -> int:
         try:
-            signals.raise_held()
-            signals.allowed = True
             done = given.contents
-            goes_on = on_pass(picture, RenderPass(done.step, done.samples, bool(done.is_last)))
-            signals.allowed = False
+            made = RenderPass(done.step, done.samples, bool(done.is_last))
+            goes_on = (on_pass(picture, made) if relay is None
+                       else relay.run(lambda: on_pass(picture, made)))
             return _STOPPED if goes_on is False else 0
         except BaseException as error:  # none may pass through C
-            signals.allowed = False
             return keep_exception(error)
     return take_pass

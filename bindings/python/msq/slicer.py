@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import operator
-import weakref
 from typing import (TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Sequence, Tuple, Union,
                     overload)
 
@@ -16,6 +15,7 @@ from ._arrays import pointer, vector
 from ._grid import Window, set_window
 from ._handle import Handle
 from ._interrupt import interruptible
+from ._lent import Lent
 from ._library import constant, defaults, keep_exception, lib, report
 from ._signals import HeldSignals
 from .context import Job, job_reference, c_text, triple, unsigned
@@ -431,32 +431,20 @@ class Slicer(Handle):
     def _run(self, take: Callable[[Layer], Any], first: int, count: int, job: Any,
              signals: HeldSignals) -> bool:
         def take_layer(_user: Any, pointer_to_layer: Any) -> int:
+            lent = Lent()
             try:
                 signals.raise_held()
                 signals.allowed = True
                 given = pointer_to_layer.contents
-                kept: List[Any] = []
-                outputs = tuple(self._read_output(given, number, kept)
-                                for number in range(len(self._kinds)))
-                first = outputs[0]
-                if len(outputs) == 1 and isinstance(first, Layer):
-                    layer = first
-                else:
-                    rows = first.rows if isinstance(first, Layer) else np.empty((0, 0), np.uint8)
-                    layer = Layer(given.index, given.z, self._kinds[0], given.width, given.height,
-                                  given.inside_count, rows, outputs)
-                    del rows
-                del outputs, first
-                goes_on = take(layer) is not False
-                index = layer.index
-                del layer
-                if any(is_kept() is not None for is_kept in kept):
-                    raise BufferError(f"a view of layer {index} is kept beyond the callback, and "
+                goes_on = self._give(given, lent, take)
+                if lent.are_kept():
+                    raise BufferError(f"a view of layer {given.index} is kept beyond the callback, and "
                                       "its memory is not: keep layer.copy()")
                 signals.allowed = False
                 return 0 if goes_on else _STOPPED
             except BaseException as error:  # none may pass through C
                 signals.allowed = False
+                lent.take_back(error)
                 return keep_exception(error)
 
         try:
@@ -467,17 +455,24 @@ class Slicer(Handle):
             raise
         return True
 
-    def _read_output(self, given: Any, number: int, kept: List[Any]) -> Union[Layer, Contours]:
-        """One output of a layer that the callback has; `kept` gets a reference to its memory."""
+    def _give(self, given: Any, lent: Lent, take: Callable[[Layer], Any]) -> bool:
+        """Calls take with a layer that the callback has. Returns whether the run goes on."""
+        outputs = tuple(self._read_output(given, number, lent) for number in range(len(self._kinds)))
+        first = outputs[0]
+        if len(outputs) == 1 and isinstance(first, Layer):
+            return take(first) is not False
+        rows = first.rows if isinstance(first, Layer) else np.empty((0, 0), np.uint8)
+        return take(Layer(given.index, given.z, self._kinds[0], given.width, given.height,
+                          given.inside_count, rows, outputs)) is not False
+
+    def _read_output(self, given: Any, number: int, lent: Lent) -> Union[Layer, Contours]:
+        """One output of a layer that the callback has, in memory that is lent."""
         output = given.outputs[number].contents
         if output.contours:
             # A pointer of its own: that of the field is gone with the layer.
             return Contours._of_layer(
-                ctypes.cast(output.contours, ctypes.POINTER(_abi.msq_contours)))
-        memory = np.frombuffer((ctypes.c_uint8 * (output.stride * given.height)).from_address(
-            ctypes.addressof(output.data.contents)), np.uint8)
-        memory.flags.writeable = False
-        kept.append(weakref.ref(memory))  # every view refers to it
+                ctypes.POINTER(_abi.msq_contours).from_buffer_copy(output.contours))
+        memory = lent.array(output.data, ctypes.c_uint8, output.stride * given.height)
         return Layer(given.index, given.z, self._kinds[number], given.width, given.height,
                      output.inside_count, memory.reshape(given.height, output.stride))
 

@@ -529,6 +529,7 @@ class Waves(Structure):
     wavelengths along each axis after which the structure repeats; 0: it need not.
     """
 
+    @remembers
     def __init__(self, wavelength: Cell = 1.0, *, count: int = 256, seed: int = 0,
                  kind: str = "network", level: Param = 0.0, volume_fraction: float = 0.0,
                  cone_angles: Sequence[float] = (90, 0, 0), tile: Sequence[int] = (0, 0, 0),

@@ -56,6 +56,11 @@ class ReadBack(unittest.TestCase):
         size[0] = 9
         self.assertEqual(foam.cell_size, [1.0, 2.0, 3.0])
 
+    def test_objects_are_kept_however_many(self):
+        foams = [msq.Foam(radius=0.2, seed=seed) for seed in range(20)]
+        self.assertEqual(msq.Model(msq.Shape.box((0, 0, 0), (1, 1, 1)), foams).structures, foams)
+        self.assertEqual(repr(msq.Structure.union(*foams)).count("msq.Foam"), 20)
+
     def test_large_arrays_are_not_kept(self):
         values = np.zeros((8, 8, 8))
         field = msq.Field.grid(values)

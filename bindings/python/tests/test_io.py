@@ -73,6 +73,28 @@ class Io(unittest.TestCase):
     def names(self):
         return sorted(path.relative_to(self.folder).as_posix() for path in self.folder.rglob("*"))
 
+    def test_errors_are_those_of_python(self):
+        (self.folder / "there.stl").write_text("old")
+        for kind, name in ((FileNotFoundError, "no_folder/a.stl"), (FileExistsError, "there.stl")):
+            with self.assertRaises(kind) as caught:
+                msq.io.save_mesh(self.model, self.folder / name, 1)
+            self.assertIsInstance(caught.exception, msq.FileError)
+            self.assertEqual(caught.exception.filename, str(self.folder / name))
+            self.assertIsNotNone(caught.exception.errno)
+
+        def fail(_points):
+            raise ZeroDivisionError("mine")
+
+        shape = msq.Shape.box((0, 0, 0), (4, 4, 4))
+        model = msq.Model(shape, [msq.Foam(radius=msq.Field.host(fail, 0.1, 0.3))])
+        with self.assertRaisesRegex(ZeroDivisionError, "mine"):
+            msq.io.save_mesh(model, self.folder / "a.stl", 1)
+        for text, call in (("null", lambda: msq.io.save_mesh(model, "a.stl\0.ply", 1, format="stl")),
+                           ("level", lambda: msq.io.save_png(
+                               self.model.slicer(layer_height=1, pitch=1), self.folder / "a", level=2**32))):
+            with self.assertRaisesRegex(ValueError, text):
+                call()
+
     def test_png(self):
         for output in ("bits", "bytes", "grey"):
             for level in (0, 1, 6):
