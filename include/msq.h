@@ -2962,8 +2962,9 @@ MSQ_API msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uin
  *
  * Rings are closed and simple, and no two of them meet. The inside is on the left: outer rings are
  * counter-clockwise in (u, v), holes clockwise. Corners are points of the rings. Points that the
- * tolerance does not need are left out. Rings come in the order of their lowest v, so a ring's
- * parent has a smaller index. The same arguments yield the same bytes, on any thread.
+ * tolerance does not need are left out. Rings come in the order of the lowest rows of nodes that
+ * they reach, so a ring's parent has a smaller index. The same arguments yield the same bytes, on
+ * any thread.
  *
  * contours: a new handle. job NULL: no job. Any number of threads may call it at once. Memory: in
  * proportion to the window's nodes and crossings, accounted to the context while the call lasts.

@@ -2213,7 +2213,7 @@ export interface Functions {
   /**
    * Computes the contours of the section of a model at a height along the axis.
    *
-   * Rings are closed and simple, and no two of them meet. The inside is on the left: outer rings are counter-clockwise in (u, v), holes clockwise. Corners are points of the rings. Points that the tolerance does not need are left out. Rings come in the order of their lowest v, so a ring's parent has a smaller index. The same arguments yield the same bytes, on any thread.
+   * Rings are closed and simple, and no two of them meet. The inside is on the left: outer rings are counter-clockwise in (u, v), holes clockwise. Corners are points of the rings. Points that the tolerance does not need are left out. Rings come in the order of the lowest rows of nodes that they reach, so a ring's parent has a smaller index. The same arguments yield the same bytes, on any thread.
    *
    * contours: a new handle. job NULL: no job. Any number of threads may call it at once. Memory: in proportion to the window's nodes and crossings, accounted to the context while the call lasts. The result is not accounted. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 crossings; coordinates beyond the type, for int64 beyond 2^53; memory), MEMORY. Source: marching squares; Imai and Iri 1986.
    */

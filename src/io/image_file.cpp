@@ -156,6 +156,11 @@ class Header {
         for (size_t i = 0; i < 3; ++i)
           file_.rotation[3 * i + axis] = length > 0 ? v[i] / length : 0;
       }
+    } else if (name == "axis mins" || name == "axismins" || name == "axis maxs" ||
+               name == "axismaxs") {
+      fail(Status::unsupported,
+           "%.*s say where the values are; spacings and space directions are read",
+           static_cast<int>(name.size()), name.data());
     } else if (name == "data file" || name == "datafile") {
       fail(Status::unsupported, "the values are in another file, %.*s; values in the file are read",
            static_cast<int>(std::min<size_t>(value.size(), 80)), value.data());

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 #include "query/inside_points.h"
 #include "ray/cast.h"
-#include "surface/boundary_ways.h"
 #include "surface/quadric.h"
 
 namespace msq {
@@ -249,8 +249,39 @@ void MeshVertices::place_by_membership(const std::vector<uint64_t>& left, const 
     const Seed& seed = seeds_[moved[n]];
     const Box3 cell = grid.cell(seed.cell[0], seed.cell[1], seed.cell[2]);
     places_[moved[n]] = on_faces(seed, clamped(ways[n].middle(), cell));
-    if (seed.faces) normals_[moved[n]] = face_normal(seed, normals_[moved[n]]);
   }
+  take_normals(moved, ways, job);
+  for (const uint64_t vertex : moved)
+    if (const Seed& seed = seeds_[vertex]; seed.faces)
+      normals_[vertex] = face_normal(seed, normals_[vertex]);
+}
+
+/// The normals where short ways cross the boundary. A vertex may have moved to another side of a
+/// thin wall than that of its crossings.
+void MeshVertices::take_normals(std::span<const uint64_t> vertices,
+                                std::span<const BoundaryWay> ways, const Job* job) {
+  const auto fill = [&](std::span<const uint64_t> rays, RaySearch* searches) {
+    for (size_t n = 0; n < rays.size(); ++n) {
+      const BoundaryWay& way = ways[rays[n]];
+      const Vec3 inwards = way.inside - way.outside;
+      const double size = length(inwards);
+      searches[n].ray = {way.outside, size > 0 ? inwards * (1 / size) : Vec3{1, 0, 0}};
+      searches[n].from = 0;
+      searches[n].to = size > 0 ? 2 * size : -1;
+    }
+  };
+  const auto take = [&](std::span<const uint64_t> rays, const RayHit* hits) {
+    for (size_t n = 0; n < rays.size(); ++n) {
+      const BoundaryWay& way = ways[rays[n]];
+      Vec3& normal = normals_[vertices[rays[n]]];
+      if (hits[n].scale >= 0 && !hits[n].starts_inside)
+        normal = hits[n].normal;
+      else if (dot(normal, way.outside - way.inside) < 0)
+        normal = normal * -1.0;
+    }
+  };
+  Job part(job);
+  cast_rays(model_, resolved_, vertices.size(), fill, take, &part);
 }
 
 /// The nearest end, of the other kind, of an edge of the loop. For a vertex on faces of the box,
@@ -314,6 +345,9 @@ void MeshVertices::place_others(const MeshTopology& topology, const MeshEdges& e
     normals_[vertex + ways.size() - 1] = mean_direction(normal, one);
   }
   halve(model_, resolved_, ways, rounds, job);
+  std::vector<uint64_t> placed(ways.size());
+  std::iota(placed.begin(), placed.end(), vertex);
+  take_normals(placed, ways, job);
   for (const BoundaryWay& way : ways) places_[vertex++] = way.middle();
   for (const GridEdge& edge : layer.middles) {
     const Crossing& crossing = at_column(edge);

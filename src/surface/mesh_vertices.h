@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/job.h"
 #include "model/model.h"
+#include "surface/boundary_ways.h"
 #include "surface/mesh_edges.h"
 #include "surface/mesh_topology.h"
 
@@ -42,6 +44,8 @@ class MeshVertices {
                   const Job* job);
   void place_on_boundary(uint64_t from, Job* job);
   void place_by_membership(const std::vector<uint64_t>& left, const Job* job);
+  void take_normals(std::span<const uint64_t> vertices, std::span<const BoundaryWay> ways,
+                    const Job* job);
   void place_others(const MeshTopology& topology, const MeshEdges& edges, uint32_t k,
                     const Job* job);
   Vec3 on_faces(const Seed& seed, Vec3 at) const;

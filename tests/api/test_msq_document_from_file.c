@@ -208,6 +208,7 @@ static void bad_images_are_refused(void** state) {
       {"NRRD0004\nsizes: 2 2 0.5\n\n", MSQ_E_IO, "sizes"},
       {"NRRD0004\nsizes: 2 2 9999999\n\n", MSQ_E_IO, "1 to 1048576"},
       {"NRRD0004\nspacings: 1 nan 1\n\n", MSQ_E_IO, "spacings: 1 nan 1"},
+      {"NRRD0004\naxis mins: 0 0 0\n\n", MSQ_E_UNSUPPORTED, "axis mins say where"},
       {"NRRD0004\ndata file: /etc/passwd\n\n", MSQ_E_UNSUPPORTED, "another file"},
       {"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n\n1234567", MSQ_E_IO,
        "7 bytes of values"},

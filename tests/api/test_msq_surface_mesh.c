@@ -226,6 +226,45 @@ static void normals_of_thin_walls_have_length_1(void** state) {
   msq_context_release(context);
 }
 
+/* Whether all points of a half-ball about a direction are inside (1), outside (0) or neither. */
+static int side_of(const msq_model* model, const double* p, const float* n, double radius) {
+  int inside = 0, count = 0;
+  for (int k = 0; k < 27; ++k) {
+    const double way[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+    const double along = way[0] * n[0] + way[1] * n[1] + way[2] * n[2];
+    if (along < 0.6) continue;
+    double q[3];
+    int32_t is_inside;
+    for (int axis = 0; axis < 3; ++axis) q[axis] = p[axis] + radius * way[axis];
+    assert_ok(msq_point_membership(model, q, NULL, &is_inside));
+    inside += is_inside;
+    ++count;
+  }
+  return inside == count ? 1 : inside == 0 ? 0 : -1;
+}
+
+/* Where walls are about as thin as the pitch, vertices move from one side to the other. */
+static void normals_of_thin_walls_look_outwards(void** state) {
+  (void)state;
+  msq_context* context = make_context();
+  msq_model* model = make_model(context, make_box(context), make_gyroid(context), NULL);
+  const msq_surface_def def = surface_def(0.4);
+  surface all = surface_of(model, &def);
+  uint64_t smooth = 0;
+  for (uint64_t v = 0; v < all.vertex_count; ++v) {
+    const float* n = all.normals + 3 * v;
+    const float back[3] = {-n[0], -n[1], -n[2]};
+    const double* p = all.vertices + 3 * v;
+    const int ahead = side_of(model, p, n, 2e-3), behind = side_of(model, p, back, 2e-3);
+    if (ahead == 1 && behind == 0) fail_msg("normal of (%g, %g, %g) is turned", p[0], p[1], p[2]);
+    smooth += ahead == 0 && behind == 1;
+  }
+  assert_true(smooth > all.vertex_count / 3);
+  free_surface(&all);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void lattices(void** state) {
   (void)state;
   check_model(lattice_model, 0.08, 0.03);
@@ -341,6 +380,7 @@ int main(void) {
       cmocka_unit_test(features_are_kept),
       cmocka_unit_test(normals_are_those_of_the_surface),
       cmocka_unit_test(normals_of_thin_walls_have_length_1),
+      cmocka_unit_test(normals_of_thin_walls_look_outwards),
       cmocka_unit_test(lattices),
       cmocka_unit_test(foams),
       cmocka_unit_test(functions),

@@ -303,7 +303,8 @@ Owner<msq_shape> Maker::shape_of_kind(uint32_t kind, int depth) {
       if (!def.distance) sight_.part = 4;
       for (int axis = 0; axis < 3; ++axis) {
         def.min[axis] = sight_.at[axis] - 2.5 * sight_.unit;
-        def.max[axis] = sight_.at[axis] + 1.5 * sight_.unit;
+        def.max[axis] =
+            sight_.at[axis] + 2.5 * sight_.unit;  // all of the ball: distances are its own
       }
       def.concurrent = static_cast<int32_t>(input_.below(2));
       def.hash_key[1] = 7;
