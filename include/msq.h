@@ -3207,11 +3207,14 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * the border and the junctions of three, five, ... lines. At a junction, the lines that are most
  * nearly straight are joined, unless this adds paths. Paths come in printing order: each begins
  * near the end of the one before. The travel between connected lines is a few percent above the
- * minimum.
+ * minimum. Lines of a function that cross, as at the heights where a Schwarz P surface has straight
+ * ones, may touch there without a junction: the function's samples tell two lines apart that turn.
  *
  * Ends of lines at the polygon's border are rounded to whole coordinates. All other decisions are
- * exact. Lines on the border itself count as inside on one side of the polygon. The lines do not
- * depend on the polygon: where polygons of a layer touch, lines go on from one to the other.
+ * exact. Lines on the border itself count as inside on one side of the polygon. Where polygons of a
+ * layer touch, lines go on from one to the other: those of foams and plates at the same point,
+ * those of functions and waves, whose points are left out from each polygon's border on, within
+ * twice the tolerance.
  * Functions are sampled on a grid of 1/32 of the smallest cell size, waves on one of 1/16
  * (docs/concepts.md has the grid of warped cells). Lines closer together than that may be joined,
  * and smaller closed lines lost.
