@@ -80,15 +80,20 @@ void run_info(const Arguments& arguments) {
   report.add("min", corners[0], 3);
   report.add("max", corners[1], 3);
   report.add("size", size, 3);
+  bool has_mesh = false;
   if (scene.part) {
     msq_shape_report found = {};
     found.struct_size = sizeof found;
     check(msq_shape_info(scene.part.get(), &found));
     report.add("volume", found.volume);
     report.add("area", found.area);
-    if (found.is_mesh) {
+    has_mesh = found.is_mesh != 0;
+    if (has_mesh) {
       report.add("mesh", diagnosis(scene.part.get(), found, arguments.has("self-intersections")));
     }
+  }
+  if (arguments.has("self-intersections") && !has_mesh) {
+    arguments.refuse("self-intersections", "needs a file of a mesh");
   }
   if (scene.structure) report.add("structure", describe_structure(arguments));
   std::vector<Report> scales;

@@ -33,8 +33,9 @@ void run_main_option(std::string_view text, std::string_view value) {
   if (text == "-V" || text == "--version") return print(version());
   if (text == "--man") return print(manual_page());
   constexpr std::string_view COMPLETION = "--completion";
-  if (text.starts_with(COMPLETION)) {
-    if (text.starts_with("--completion=")) value = text.substr(COMPLETION.size() + 1);
+  const bool has_value = text.starts_with("--completion=");
+  if (text == COMPLETION || has_value) {
+    if (has_value) value = text.substr(COMPLETION.size() + 1);
     if (value == "bash") return print(bash_completion());
     if (value == "zsh") return print(zsh_completion());
     throw UsageError("--completion: '" + std::string(value) + "' is none of bash, zsh");

@@ -311,8 +311,9 @@ const std::vector<Command>& table() {
        "Finds the constant parameter at which a structure has a volume fraction: the radius of "
        "struts, the thickness of the walls of a foam without struts, the level of a surface. It "
        "measures the structure alone, in whole cells. A field in a model file for this parameter "
-       "is ignored. --radius, --thickness and --level may be left out. Their values are ignored, "
-       "but --thickness selects the walls of a foam, and --sheet the sheet of a surface.",
+       "is ignored. --radius, --thickness and --level may be left out. Values that a structure can "
+       "have are ignored, but --thickness selects the walls of a foam, and --sheet the sheet of a "
+       "surface.",
        {{"MODEL", false, "a model file (.json), in place of options"}},
        {{"Calibration", CALIBRATE},
         REPORT_GROUP,

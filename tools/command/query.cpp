@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // msq query: evaluates the model at points.
+#include <algorithm>
 #include <cstring>
 
 #include "output_file.h"
@@ -50,6 +51,9 @@ Wanted read_wanted(const Arguments& arguments) {
     if (name.empty() || name.find_first_of("'\"\\\n") != name.npos) {
       arguments.refuse("channels", "'" + std::string(name) + "' is no name of a channel");
     }
+    const bool is_double =
+        std::find(wanted.channels.begin(), wanted.channels.end(), name) != wanted.channels.end();
+    if (is_double) arguments.refuse("channels", "has '" + std::string(name) + "' twice");
     wanted.channels.emplace_back(name);
   }
   return wanted;

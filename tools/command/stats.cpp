@@ -208,6 +208,9 @@ void run_stats(const Arguments& arguments) {
   report.add("part_volume", part.value * box);
   report.add("solid_volume", solid.value * box);
   report.add("relative_density", solid.value / part.value);
+  if (arguments.has("direction") && !arguments.has("two-point") && !arguments.has("lineal-path")) {
+    arguments.refuse("direction", "needs --two-point or --lineal-path");
+  }
   if (arguments.has("two-point")) {
     report.add("two_point",
                measure(arguments, scene, sample, phase, "two-point", msq_two_point_correlation));
