@@ -262,7 +262,9 @@ void ContourSection::locate_some(ContourPoints& points, const std::vector<Edge>&
       const double middle = s.middle();
       open[kept] = open[n];
       // Not if there is no number between the ends, however small the accuracy is.
-      kept += (std::abs(s.ends[inside[n] ^ 1] - middle) > accuracy) & (s.ends[inside[n]] != middle);
+      const size_t is_coarse = std::abs(s.ends[inside[n] ^ 1] - middle) > accuracy;
+      const size_t is_between = s.ends[inside[n]] != middle;
+      kept += is_coarse & is_between;
       s.ends[inside[n]] = middle;
     }
     open.resize(kept);
