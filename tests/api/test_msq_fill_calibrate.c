@@ -148,6 +148,62 @@ static void stacks_have_the_density(void** state) {
   msq_context_release(context);
 }
 
+static void turn(double rotation[9], int axis, double angle) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  for (int i = 0; i < 9; ++i) rotation[i] = i % 4 == 0;
+  rotation[3 * u + u] = rotation[3 * v + v] = cos(angle);
+  rotation[3 * v + u] = sin(angle);
+  rotation[3 * u + v] = -sin(angle);
+}
+
+/* Turned about z the lines are as long, and a turn by 0.001 about x or y changes hardly one. */
+static void turned_cells_have_the_same_size(void** state) {
+  static const struct {
+    int axis;
+    double angle, tolerance;
+  } turns[] = {{2, 1e-4, 3e-3}, {2, 0.01, 3e-3}, {2, 0.1, 3e-3},  {2, 0.3, 3e-3},
+               {2, 0.7, 3e-3},  {2, 1.2, 3e-3},  {1, 1e-3, 3e-3}, {0, 1e-3, 3e-3}};
+  static const double nodes[4][3] = {{0, 0, 0}, {1, 0, 1}, {0.5, 0.5, 0.2}, {0.1, 0.9, 0.7}};
+  static const uint32_t faces[2][3] = {{0, 1, 2}, {1, 2, 3}};
+  msq_context* context = make_context();
+  (void)state;
+  for (int k = 0; k < 4; ++k) {
+    double plain[3] = {0};
+    for (size_t i = 0; i <= sizeof turns / sizeof *turns; ++i) {
+      double rotation[9], cell[3];
+      msq_structure* made;
+      turn(rotation, i ? turns[i - 1].axis : 2, i ? turns[i - 1].angle : 0);
+      if (k < 3) {
+        msq_plate_lattice_def def;
+        assert_ok(msq_plate_lattice_def_init(&def, sizeof def));
+        def.plate_cell = k == 0   ? MSQ_PLATE_CELL_FCC
+                         : k == 1 ? MSQ_PLATE_CELL_CUBIC
+                                  : MSQ_PLATE_CELL_CUSTOM;
+        def.nodes = &nodes[0][0];
+        def.node_count = 4;
+        def.faces = &faces[0][0];
+        def.face_count = 2;
+        def.thickness.value = 0.05;
+        memcpy(def.grid.rotation, rotation, sizeof rotation);
+        assert_ok(msq_structure_plate_lattice(context, &def, &made));
+      } else {
+        msq_functional_def def;
+        assert_ok(msq_functional_def_init(&def, sizeof def));
+        def.kind = MSQ_FUNCTIONAL_SHEET;
+        def.thickness.value = 0.05;
+        memcpy(def.grid.rotation, rotation, sizeof rotation);
+        assert_ok(msq_structure_functional(context, &def, &made));
+      }
+      assert_ok(msq_fill_calibrate(context, made, 0.2, 0.15, i ? cell : plain, NULL));
+      msq_structure_release(made);
+      if (i && fabs(cell[0] / plain[0] - 1) > turns[i - 1].tolerance)
+        fail_msg("structure %d, turn %g about %d: %g, not %g", k, turns[i - 1].angle,
+                 turns[i - 1].axis, cell[0], plain[0]);
+    }
+  }
+  msq_context_release(context);
+}
+
 /* Only their calibration is refused. */
 static void graded_foams_have_lines(void** state) {
   const double from[3] = {0, 0, 0}, to[3] = {4, 0, 0};
@@ -173,6 +229,7 @@ static void graded_foams_have_lines(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stacks_have_the_density),
+      cmocka_unit_test(turned_cells_have_the_same_size),
       cmocka_unit_test(graded_foams_have_lines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
