@@ -216,9 +216,9 @@ MSQ_IO_API msq_status msq_io_panel_def_init(msq_io_panel_def* def, size_t size);
 
 /** Sets the fields of a slicer's definition that depend on the panel: resolution, region,
  * orientation and, if plan has no outputs, output = MSQ_LAYER_GREY. The part is centred on the
- * panel. The bottom of layer 0 is the bottom of the model. plan must come from msq_slicer_def_init
- * and have a layer_height. The unit of the model must be the millimetre. Other fields of plan stay
- * as they are. panel NULL: defaults. Errors: ARGUMENT (also for a model of all space, and for one
+ * panel. plan must come from msq_slicer_def_init and have a layer_height or layer_z. The bottom of
+ * layer 0 is the bottom of the model, unless layer_z lists the layers. The unit of the model must be
+ * the millimetre. Other fields of plan stay as they are. panel NULL: defaults. Errors: ARGUMENT (also for a model of all space, and for one
  * larger than the panel). */
 MSQ_IO_API msq_status msq_io_panel_plan(const msq_model* model, const msq_io_panel_def* panel,
                                         msq_slicer_def* plan);
@@ -256,8 +256,8 @@ typedef struct msq_io_sl1_def {
   /** fileCreationTimestamp, in seconds since 1970-01-01 UTC, at least 315532800 (1980). 0
    * (default): that of 1980-01-01, so that the same layers make the same file. */
   int64_t created;
-  /** layer_height in millimetres. 0 (default): the distance between layers; there must then be at
-   * least two. */
+  /** layer_height in millimetres. 0 (default): the distance between the slicer's layers; there must
+   * then be at least two. */
   double layer_height;
   /** Model of the two thumbnails, of 400 x 400 and 800 x 480 pixels. They are rendered when the
    * writer is created. NULL (default): no thumbnails. */
@@ -269,9 +269,10 @@ MSQ_IO_API msq_status msq_io_sl1_def_init(msq_io_sl1_def* def, size_t size);
 
 /** Creates a writer of an SL1 archive: config.ini and prusaslicer.ini with PrusaSlicer's keys, one
  * PNG of 8 bits per pixel per layer, and thumbnails. Layers must have the size of the panel
- * (msq_io_panel_plan), equal distances, and an output of GREY or BYTES. writer_def, def NULL:
- * defaults. job: cancels the rendering of thumbnails; NULL: no job. Errors: ARGUMENT, CANCELLED,
- * HOST, IO, LIMIT (as msq_io_png_create), MEMORY. */
+ * (msq_io_panel_plan), an output of GREY or BYTES, and equal distances to 1/1000 of the layer
+ * height, also outside the window of writer_def. writer_def, def NULL: defaults. job: cancels the
+ * rendering of thumbnails; NULL: no job. Errors: ARGUMENT, CANCELLED, HOST, IO, LIMIT (as
+ * msq_io_png_create), MEMORY. */
 MSQ_IO_API msq_status msq_io_sl1_create(const msq_slicer* slicer, const char* path,
                                         const msq_io_writer_def* writer_def,
                                         const msq_io_sl1_def* def, msq_io_writer** writer,
@@ -355,8 +356,9 @@ typedef struct msq_io_slices_def {
   uint32_t reserved;
   /** units of the contours (msq_contours_def), which coordinates are divided by. Default 1. */
   double units;
-  /** Height of the layer if there is only one. The slices of several layers end halfway between
-   * them. Default 0. */
+  /** Height of the layer if the slicer has only one. The slices of several layers end halfway
+   * between them, and the lowest and the highest layer are in the middle of their slices. A window
+   * of layers has the heights that it has in the whole stack. Default 0. */
   double layer_height;
 } msq_io_slices_def;
 

@@ -5,7 +5,7 @@
 
 static msq_context* context;
 static msq_model* model;
-static msq_slicer *bits, *panel_layers, *two_layers;
+static msq_slicer *bits, *panel_layers, *uneven, *one_layer;
 static const char part_path[] = "refused.part";
 
 static int begin_tests(void** state) {
@@ -23,12 +23,15 @@ static int begin_tests(void** state) {
   def.layer_z_count = 3;
   def.layer_count = 0;
   def.layer_height = 0;
-  assert_ok(msq_slicer_create(model, &def, &two_layers));
+  assert_ok(msq_slicer_create(model, &def, &uneven));
+  def.layer_z_count = 1;
+  assert_ok(msq_slicer_create(model, &def, &one_layer));
   return 0;
 }
 static int end_tests(void** state) {
   (void)state;
-  msq_slicer_release(two_layers);
+  msq_slicer_release(one_layer);
+  msq_slicer_release(uneven);
   msq_slicer_release(panel_layers);
   msq_slicer_release(bits);
   msq_model_release(model);
@@ -265,6 +268,7 @@ static void archives(void** state) {
   (void)state;
   REFUSALS("msq_io_panel_plan") {
     const msq_model* of = model;
+    static const double heights[2] = {0.5, 1};
     msq_io_panel_def* panel = (msq_io_panel_def*)definition(0);
     msq_slicer_def* plan = (msq_slicer_def*)output(0);
     assert_ok(msq_io_panel_def_init(panel, sizeof *panel));
@@ -272,6 +276,7 @@ static void archives(void** state) {
     plan->layer_height = 0.5;
     wrong_panel(table, panel);
     WRONG(ARGUMENT, "layer_height of plan is 0", plan->layer_height = 0);
+    RIGHT(plan->layer_height = 0; plan->layer_z = heights; plan->layer_z_count = 2);
     WRONG(ARGUMENT, "struct_size of plan is 8", plan->struct_size = 8);
     WRONG(ARGUMENT, "4 mm wide along x; the panel has 3.9 mm", panel->size[0] = 3.9);
     WRONG(ARGUMENT, "4 mm wide along y; the panel has 3.5 mm", panel->size[1] = 3.5);
@@ -305,8 +310,10 @@ static void archives(void** state) {
     WRONG(ARGUMENT, "exposure_time is -1;", def->exposure_time = -1);
     WRONG(ARGUMENT, "layer_height is 0.6; the layers are 0.5 apart", def->layer_height = 0.6);
     RIGHT(def->layer_height = 0.5);
-    WRONG(ARGUMENT, "layer_height is 0; with one layer", writer_def->layer_count = 1);
-    RIGHT(writer_def->layer_count = 1; def->layer_height = 0.5);
+    WRONG(ARGUMENT, "layer_height is 0; with one layer", slicer = one_layer);
+    RIGHT(slicer = one_layer; def->layer_height = 0.5);
+    RIGHT(writer_def->layer_count = 1);
+    WRONG(ARGUMENT, "is 0.6|0.5 apart", writer_def->layer_count = 1; def->layer_height = 0.6);
     wrong_name(table, &def->job, "job");
     WRONG(ARGUMENT, "printer_model has a control character", def->printer_model = "a\nb = c");
     WRONG(ARGUMENT, "printer_variant has a control", def->printer_variant = "a\n");
@@ -321,7 +328,8 @@ static void archives(void** state) {
     RIGHT(def->created = 1766000000);
     WRONG(ARGUMENT, "layers have 1440 x 2560 pixels;|2560 x 1440", panel->portrait = 0);
     WRONG(ARGUMENT, "layers have 53 x 41 pixels;|1440 x 2560", slicer = bits);
-    WRONG(ARGUMENT, "layer 1 is at z = 1;|1.25 here", slicer = two_layers);
+    WRONG(ARGUMENT, "layer 1 is at z = 1;|0.75 apart with this one at 1.25", slicer = uneven);
+    WRONG(ARGUMENT, "layer 1 is at z = 1;", slicer = uneven; writer_def->layer_count = 2);
     WRONG(ARGUMENT, "path is NULL", path = NULL);
     WRONG(IO, "No such file", path = "none/none");
     RIGHT(def = NULL);
@@ -414,8 +422,9 @@ static void threemf(void** state) {
     WRONG(ARGUMENT, "reserved is 1", def->reserved = 1);
     WRONG(ARGUMENT, "units is 0", def->units = 0);
     WRONG(ARGUMENT, "layer_height is -1", def->layer_height = -1);
-    WRONG(ARGUMENT, "layer_height is 0|one layer", writer_def->layer_count = 1);
-    RIGHT(writer_def->layer_count = 1; def->layer_height = 0.5);
+    WRONG(ARGUMENT, "layer_height is 0|one layer", slicer = one_layer);
+    RIGHT(slicer = one_layer; def->layer_height = 0.5);
+    RIGHT(writer_def->layer_count = 1);
     WRONG(ARGUMENT, "first_layer is 12", writer_def->first_layer = 12);
     RIGHT(def = NULL; writer_def = NULL);
     WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);

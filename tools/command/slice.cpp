@@ -200,6 +200,21 @@ void remove_window(msq_contours_def& contours) {
   for (size_t i = 0; i < 2; ++i) contours.window_min[i] = contours.window_max[i] = 0;
 }
 
+// The smallest distance of layers. Listed heights count before a layer_height beside them.
+double closest_layers(const msq_slicer_def& plan) {
+  if (plan.layer_z == nullptr || plan.layer_z_count < 2) return plan.layer_height;
+  double closest = INFINITY;
+  for (uint64_t i = 1; i < plan.layer_z_count; ++i) {
+    closest = std::fmin(closest, plan.layer_z[i] - plan.layer_z[i - 1]);
+  }
+  return closest;
+}
+
+// What a writer must be told of the height of layers: nothing where several are listed.
+double told_height(const msq_slicer_def& plan) {
+  return plan.layer_z != nullptr && plan.layer_z_count > 1 ? 0 : plan.layer_height;
+}
+
 // Digits after the point that are finer than contours and layers. 4 are enough for most.
 uint32_t decimals_of(const msq_contours_def& contours, double layer_height) {
   const double finest =
@@ -267,6 +282,11 @@ void run_slice(const Arguments& arguments) {
     plan.layer_z = nullptr;
     plan.layer_z_count = plan.layer_count = 0;
   }
+  const bool needs_height = format == Format::SL1 || format == Format::THREEMF;
+  if (needs_height && plan.layer_z_count == 1 && !(plan.layer_height > 0)) {
+    throw Failure(arguments.operand(0) + ": slicing.layer_z lists one layer; " +
+                  ending(arguments.text("output")) + " needs its height, layer_height, too");
+  }
   plan.length_scale = arguments.number("length-scale", plan.length_scale);
   read_grey(arguments, plan);
   if (format == Format::SL1) {
@@ -298,11 +318,11 @@ void run_slice(const Arguments& arguments) {
   const msq_io_writer_def writer_def = make_writer_def(arguments, first, count);
   Writer writer;
   if (format == Format::SL1) {
-    create_sl1(arguments, scene, slicer.get(), path, writer_def, panel, plan.layer_height, writer);
+    create_sl1(arguments, scene, slicer.get(), path, writer_def, panel, told_height(plan), writer);
   } else if (format == Format::THREEMF) {
-    create_threemf(slicer.get(), path, writer_def, contours, plan.layer_height, writer);
+    create_threemf(slicer.get(), path, writer_def, contours, told_height(plan), writer);
   } else if (takes_contours(format)) {
-    create_svg(slicer.get(), path, writer_def, contours, plan.layer_height, format, writer);
+    create_svg(slicer.get(), path, writer_def, contours, closest_layers(plan), format, writer);
   } else {
     check_io(msq_io_png_create(slicer.get(), path.c_str(), &writer_def, nullptr, writer.out()));
   }

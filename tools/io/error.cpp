@@ -54,10 +54,10 @@ void check_msq(msq_status status) {
   if (status != MSQ_OK) throw Error(status, msq_error_message());
 }
 
-std::string text_of(double value) {
+std::string text_of(double value, int digits) {
   char text[32];
   const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr;
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
   return {text, end};
 }
 

@@ -35,8 +35,8 @@ class Error : public std::runtime_error {
 /// Throws Error with the message of msq if the status of a call of msq is an error.
 void check_msq(msq_status status);
 
-/// A number as "%g" in the C locale.
-std::string text_of(double value);
+/// A number as "%g" in the C locale, with so many significant digits.
+std::string text_of(double value, int digits = 6);
 
 /// Keeps the message for msq_io_error_message() on this thread and returns the status.
 msq_status record(msq_status status, const char* message) noexcept;

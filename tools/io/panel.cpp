@@ -77,7 +77,8 @@ msq_status msq_io_panel_plan(const msq_model* model, const msq_io_panel_def* hos
     msq_slicer_def* const plan = &copy;
     std::memcpy(plan, host_plan, std::min(size, sizeof copy));
     const msq_io_panel_def panel = read_panel(host_panel);
-    const double height = require_positive(plan->layer_height, "layer_height of plan");
+    const double height =
+        plan->layer_z ? 0 : require_positive(plan->layer_height, "layer_height of plan");
     double min[3], max[3];
     find_bounds(require(model, "model"), copy, min, max);
     for (int axis = 0; axis < 3; ++axis) {
@@ -95,13 +96,16 @@ msq_status msq_io_panel_plan(const msq_model* model, const msq_io_panel_def* hos
       plan->pitch[axis] = 0;
     }
     plan->region_min[2] = min[2];
-    // A last layer that only rounding would make is left out.
-    const double layers = std::ceil((max[2] - min[2]) / height - 1e-6);
-    plan->region_max[2] = min[2] + std::fmax(layers, 1) * height;
-    if (plan->layer_count == 0 && !plan->layer_z) {
-      if (!(layers < 2147483648.0))
-        fail(MSQ_E_LIMIT, "%s layers; the limit is 2147483647", text_of(layers).c_str());
-      plan->layer_count = static_cast<uint64_t>(std::fmax(layers, 1));
+    plan->region_max[2] = max[2];
+    if (!plan->layer_z) {
+      // A last layer that only rounding would make is left out.
+      const double layers = std::fmax(std::ceil((max[2] - min[2]) / height - 1e-6), 1);
+      plan->region_max[2] = min[2] + layers * height;
+      if (plan->layer_count == 0) {
+        if (!(layers < 2147483648.0))
+          fail(MSQ_E_LIMIT, "%s layers; the limit is 2147483647", text_of(layers).c_str());
+        plan->layer_count = static_cast<uint64_t>(layers);
+      }
     }
     plan->has_region = 1;
     // PrusaSlicer (libslic3r/SLA/RasterBase.hpp): the first row is that of the largest y, and

@@ -102,25 +102,30 @@ class Sl1Archive : public Format {
   std::atomic<uint64_t> bytes_{0};
 };
 
-/// The distance of the layers that will come.
+/// The distance of the layers that will come. For a part of a stack it is that of the whole stack,
+/// whose layers must all be evenly spaced, so that parts fit.
 double layer_height(const msq_slicer* slicer, const WriterPlan& plan, double given) {
-  if (plan.layer_count == 1 && given == 0)
+  const uint64_t count = plan.stack_layers;
+  if (count == 1 && given == 0)
     fail(MSQ_E_ARGUMENT, "layer_height is 0; with one layer it must be given");
+  if (count == 1) return given;
   double first = 0, last = 0;
-  check_msq(msq_slicer_layer_z(slicer, plan.first_layer, &first));
-  check_msq(msq_slicer_layer_z(slicer, plan.first_layer + plan.layer_count - 1, &last));
-  if (plan.layer_count == 1) return given;
-  const double height = (last - first) / static_cast<double>(plan.layer_count - 1);
+  check_msq(msq_slicer_layer_z(slicer, 0, &first));
+  check_msq(msq_slicer_layer_z(slicer, count - 1, &last));
+  const double height = (last - first) / static_cast<double>(count - 1);
   if (given != 0 && std::fabs(height - given) > 1e-3 * height)
     fail(MSQ_E_ARGUMENT, "layer_height is %s; the layers are %s apart", text_of(given).c_str(),
          text_of(height).c_str());
-  for (uint64_t i = 1; i < plan.layer_count; ++i) {
+  for (uint64_t i = 1; i < count; ++i) {
     double z = 0;
-    check_msq(msq_slicer_layer_z(slicer, plan.first_layer + i, &z));
-    if (std::fabs(z - first - static_cast<double>(i) * height) > 1e-3 * height)
-      fail(MSQ_E_ARGUMENT, "layer %llu is at z = %s; an SL1 archive needs even heights, %s here",
-           static_cast<unsigned long long>(plan.first_layer + i), text_of(z).c_str(),
-           text_of(first + static_cast<double>(i) * height).c_str());
+    check_msq(msq_slicer_layer_z(slicer, i, &z));
+    const double even = first + static_cast<double>(i) * height;
+    if (std::fabs(z - even) > 1e-3 * height)
+      fail(MSQ_E_ARGUMENT,
+           "layer %llu is at z = %s; an SL1 archive needs evenly spaced layers, here %s apart with "
+           "this one at %s",
+           static_cast<unsigned long long>(i), text_of(z, 9).c_str(), text_of(height).c_str(),
+           text_of(even, 9).c_str());
   }
   // Heights are given with few digits: without those that rounding adds.
   return given != 0 ? given : std::round(height * 1e9) / 1e9;

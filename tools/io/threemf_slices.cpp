@@ -41,24 +41,34 @@ struct Extent {
 };
 
 /// The heights at which slices end: halfway between layers. The first is the bottom of the stack.
+/// Those of a part of a stack are those of the whole: layers below and above the part count, too.
 std::vector<double> read_heights(const msq_slicer* slicer, const WriterPlan& plan, double height) {
-  std::vector<double> z(plan.layer_count), ends(plan.layer_count + 1);
-  for (uint64_t i = 0; i < plan.layer_count; ++i)
-    check_msq(msq_slicer_layer_z(slicer, plan.first_layer + i, &z[i]));
-  if (plan.layer_count == 1) {
+  std::vector<double> ends;
+  const auto z_of = [&](uint64_t layer) {
+    double z = 0;
+    check_msq(msq_slicer_layer_z(slicer, layer, &z));
+    return z;
+  };
+  const uint64_t first = plan.first_layer, end = first + plan.layer_count;
+  if (plan.stack_layers == 1) {
     if (!(height > 0))
       fail(MSQ_E_ARGUMENT, "layer_height is %s; with one layer it must be positive",
            text_of(height).c_str());
-    return {z[0] - 0.5 * height, z[0] + 0.5 * height};
+    ends = {z_of(0) - 0.5 * height, z_of(0) + 0.5 * height};
+  } else {
+    const auto middle = [&](uint64_t layer) { return 0.5 * (z_of(layer - 1) + z_of(layer)); };
+    // The outermost layers reach as far outwards as inwards.
+    ends.push_back(first > 0 ? middle(first) : z_of(0) - (middle(1) - z_of(0)));
+    for (uint64_t i = first + 1; i < end; ++i) ends.push_back(middle(i));
+    ends.push_back(end < plan.stack_layers ? middle(end)
+                                           : z_of(end - 1) + (z_of(end - 1) - middle(end - 1)));
   }
-  for (uint64_t i = 1; i < plan.layer_count; ++i) {
-    if (!(z[i] > z[i - 1]))
-      fail(MSQ_E_ARGUMENT, "layer %llu is not above the one before it",
-           static_cast<unsigned long long>(plan.first_layer + i));
-    ends[i] = 0.5 * (z[i - 1] + z[i]);
-  }
-  ends.front() = z.front() - (ends[1] - z.front());
-  ends.back() = z.back() + (z.back() - ends[plan.layer_count - 1]);
+  for (uint64_t i = 1; i < ends.size(); ++i)
+    if (!(ends[i] > ends[i - 1]))
+      fail(MSQ_E_ARGUMENT,
+           "layer %llu at z = %s would be a slice from %s to %s; it must have a height",
+           static_cast<unsigned long long>(first + i - 1), text_of(z_of(first + i - 1), 9).c_str(),
+           text_of(ends[i - 1], 9).c_str(), text_of(ends[i], 9).c_str());
   return ends;
 }
 

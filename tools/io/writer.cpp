@@ -40,6 +40,7 @@ WriterPlan read_plan(const msq_slicer* slicer, const msq_io_writer_def* host_def
   WriterPlan plan{};
   plan.first_layer = def.first_layer;
   plan.layer_count = std::min(def.layer_count, left);
+  plan.stack_layers = report.layer_count;
   plan.width = report.width;
   plan.height = report.height;
   plan.output = def.output;

@@ -10,9 +10,9 @@
 
 namespace msq_io {
 
-/// The layers that will come, and how they are taken.
+/// The layers that will come, and how they are taken. They are part of a stack of stack_layers.
 struct WriterPlan {
-  uint64_t first_layer, layer_count;
+  uint64_t first_layer, layer_count, stack_layers;
   uint32_t width, height, output, threads;
   bool replace;
   uint64_t queue_bytes;
