@@ -3629,7 +3629,8 @@ typedef struct msq_document msq_document;
 
 /** Which files a document may name. */
 enum msq_document_files {
-  /** Relative paths below base_directory, without "..". Symbolic links there are followed. */
+  /** Relative paths below base_directory, without "..", colons and backslashes. Symbolic links
+   * there are followed. */
   MSQ_DOCUMENT_FILES_BELOW = 0,
   /** None. */
   MSQ_DOCUMENT_FILES_NONE = 1,
@@ -3731,7 +3732,8 @@ typedef struct msq_json_def {
   /** Must be 0. */
   uint32_t reserved;
   /** Paths of files below this directory become relative to it. It is compared as text. NULL
-   * (default): paths are written as the host or the document gave them. */
+   * (default): paths are written as msq_shape_from_file got them. Relative paths of a document have
+   * the base_directory of that document before them. */
   const char* base_directory;
   /** In UTF-8. NULL (default): none. */
   const char* title;

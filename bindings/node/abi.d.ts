@@ -245,7 +245,7 @@ export declare const MSQ_COLOUR_SCALE = 1;
 export declare const MSQ_COLOUR_MATERIAL = 2;
 /** red, green, blue = (1 + normal) / 2 */
 export declare const MSQ_COLOUR_NORMAL = 3;
-/** Relative paths below base_directory, without "..". Symbolic links there are followed. */
+/** Relative paths below base_directory, without "..", colons and backslashes. Symbolic links there are followed. */
 export declare const MSQ_DOCUMENT_FILES_BELOW = 0;
 /** None. */
 export declare const MSQ_DOCUMENT_FILES_NONE = 1;
@@ -1736,7 +1736,7 @@ export interface msq_json_def {
   struct_size: number;
   /** Must be 0. */
   reserved: number;
-  /** Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as the host or the document gave them. */
+  /** Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as msq_shape_from_file got them. Relative paths of a document have the base_directory of that document before them. */
   base_directory: string | null;
   /** In UTF-8. NULL (default): none. */
   title: string | null;

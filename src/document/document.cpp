@@ -19,7 +19,7 @@ Document::Document(std::string_view text, msq_context* context, const FileRules&
   if (!version)
     builder.refuse(root, Status::argument,
                    "has no key msq_model with the version of the format, 1");
-  if (tree[version].kind != JsonValue::Kind::whole || tree[version].whole != document_version)
+  if (whole_number(tree[version]) != document_version)
     builder.refuse(version, Status::unsupported, "is not 1, the version that this msq reads");
   const char *title = "", *ignored = nullptr;
   reader.text("title", title);

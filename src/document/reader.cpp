@@ -35,6 +35,15 @@ std::string counted(uint64_t count, const char* one, const char* many) {
 
 }  // namespace
 
+std::optional<uint64_t> whole_number(const JsonValue& value) {
+  if (value.kind == Kind::whole) return value.whole;
+  if (value.kind != Kind::number) return std::nullopt;
+  constexpr double too_large = 18446744073709551616.0;
+  const double number = value.number;
+  if (!(number >= 0 && number < too_large) || number != std::floor(number)) return std::nullopt;
+  return static_cast<uint64_t>(number);
+}
+
 Reader::Reader(Builder& builder, uint32_t object, Arena& arena)
     : builder_(builder), tree_(builder.tree()), object_(object), arena_(arena) {
   expect(object, Kind::object);
@@ -72,7 +81,8 @@ double Reader::number_of(uint32_t value) const {
 
 uint64_t Reader::whole_of(uint32_t value, uint64_t max) const {
   const JsonValue& found = tree_[value];
-  if (found.kind != Kind::whole || found.whole > max) {
+  const std::optional<uint64_t> whole = whole_number(found);
+  if (!whole || *whole > max) {
     std::string is = std::string("is ") + name_of(found.kind);
     if (found.kind == Kind::whole) is = "is " + std::to_string(found.whole);
     if (found.kind == Kind::number) {
@@ -83,7 +93,7 @@ uint64_t Reader::whole_of(uint32_t value, uint64_t max) const {
     builder_.refuse(value, Status::argument,
                     is + "; it must be a whole number from 0 to " + std::to_string(max));
   }
-  return found.whole;
+  return *whole;
 }
 
 int32_t Reader::choice_of(uint32_t value, api::Choices choices) const {

@@ -2,12 +2,16 @@
 // Reads the members of a definition from an object of a document.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "api/definition_walk.h"
 #include "document/builder.h"
 
 namespace msq::document {
+
+/// A whole number from 0 to 2^64 - 1, as JSON Schema has it: 1, 1.0 and 1e0 are the same.
+std::optional<uint64_t> whole_number(const JsonValue& value);
 
 class Reader final : public api::DefinitionWalk {
  public:

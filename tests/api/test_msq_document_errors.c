@@ -38,6 +38,7 @@ static const struct {
     {"{}", MSQ_E_ARGUMENT, "1:1: the document: |no key msq_model"},
     {"{\"msq_model\": 2}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is not 1"},
     {"{\"msq_model\": \"1\"}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is not 1"},
+    {"{\"msq_model\": 1.5}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is not 1"},
     {"{\"msq_model\": 1}", MSQ_E_ARGUMENT, "1:1: the document: |neither scales nor regions"},
     {TOP("\"regions\": []"), MSQ_E_ARGUMENT, "1:1: the document: |both scales and regions"},
     {TOP("\"colour\": 1"), MSQ_E_ARGUMENT, "2:1: colour: |unknown key; the keys here are scales"},
@@ -116,6 +117,10 @@ static const struct {
          "{\"voxels\": {\"image\": {\"values\": [1, 2], \"value_type\": \"int8\", \"size\": [1, 1, "
          "2]}}}"),
      MSQ_E_ARGUMENT, "2:41: |\"int8\"; it must be one of float32"},
+    {SHAPE("{\"voxels\": {\"image\": {\"values\": [1, 2], \"value_type\": \"uint8\", \"size\": [1, "
+           "1, "
+           "2]}}}"),
+     MSQ_E_ARGUMENT, "2:73: |voxels.image.size|image.size[0] is 1; it must be from 2"},
     {SHAPE("{\"placed\": {\"original\": " BOX ", \"matrix\": [0]}}"), MSQ_E_ARGUMENT,
      "2:72: scales[0].shape.placed.matrix: |1 element; it must have 12"},
     {SHAPE("{\"placed\": {\"original\": " BOX "}}"), MSQ_E_ARGUMENT,
@@ -134,6 +139,10 @@ static const struct {
      "2:26: |seed: |is -1"},
     {STRUCTURE("{\"foam\": {\"radius\": 0.1, \"seed\": 1.5}}"), MSQ_E_ARGUMENT,
      "2:26: |seed: |1.5"},
+    {STRUCTURE("{\"foam\": {\"radius\": 0.1, \"seed\": 18446744073709551616}}"), MSQ_E_ARGUMENT,
+     "2:26: |seed: |is 1.844674407e+19|to 18446744073709551615"},
+    {STRUCTURE("{\"foam\": {\"radius\": 0.1, \"seed\": -1.0}}"), MSQ_E_ARGUMENT,
+     "2:26: |seed: |is -1;"},
     {STRUCTURE("{\"foam\": {\"radius\": 0.1, \"grid\": {\"cell_size\": [1, 0, 1]}}}"),
      MSQ_E_ARGUMENT, "2:35: scales[1].structure.foam.grid.cell_size: |grid.cell_size is 0"},
     {STRUCTURE("{\"foam\": {\"radius\": 0.1, \"grid\": {\"cell_size\": [1, 1e-80, 1]}}}"),

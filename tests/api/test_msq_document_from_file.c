@@ -65,6 +65,10 @@ static void meshes_are_read_and_written_as_paths(void** state) {
   text = json_of(wanted, NULL);
   assert_non_null(strstr(text, path_of("cube.stl")));
   free(text);
+  /* The document named it without the folder. */
+  text = json_of(model, NULL);
+  assert_non_null(strstr(text, path_of("cube.stl")));
+  free(text);
   msq_model_release(model);
   msq_model_release(wanted);
 }

@@ -395,7 +395,7 @@ namespace Msq
     /// <summary>Which files a document may name.</summary>
     public enum DocumentFiles
     {
-        /// <summary>Relative paths below base_directory, without "..". Symbolic links there are followed.</summary>
+        /// <summary>Relative paths below base_directory, without "..", colons and backslashes. Symbolic links there are followed.</summary>
         Below = 0,
         /// <summary>None.</summary>
         None = 1,
@@ -2407,7 +2407,7 @@ namespace Msq.Interop
         public uint struct_size;
         /// <summary>Must be 0.</summary>
         public uint reserved;
-        /// <summary>Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as the host or the document gave them.</summary>
+        /// <summary>Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as msq_shape_from_file got them. Relative paths of a document have the base_directory of that document before them.</summary>
         public byte* base_directory;
         /// <summary>In UTF-8. NULL (default): none.</summary>
         public byte* title;

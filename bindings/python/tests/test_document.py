@@ -104,6 +104,45 @@ class Documents(unittest.TestCase):
         bad = {"msq_model": 1, "scales": [{"shape": {"box": {"min": [0, 0, 0], "mix": 1}}}]}
         self.assertFalse(validator.is_valid(bad))
 
+    @unittest.skipUnless(jsonschema, "python3-jsonschema is absent")
+    def test_the_schema_and_msq_agree_about_numbers(self):
+        validator = jsonschema.Draft7Validator(SCHEMA)
+        foam = {"grid": {"cell_size": 2}, "radius": 0.2}
+        image = {"values": [1] * 8, "value_type": "uint8"}
+
+        def document(seed="3", voxels=None, version=1, width=9):
+            shape = {"voxels": {"image": {**image, "size": voxels}}} if voxels else {"box": {
+                "min": [0, 0, 0], "max": [4, 4, 4]}}
+            view = {"direction": [0, 0, 1], "width": width, "height": 9}
+            made = {"msq_model": version, "scales": [{"shape": shape},
+                                                     {"structure": {"foam": {**foam, "seed": 3}}}],
+                    "view": view}
+            return json.dumps(made).replace('"seed": 3', f'"seed": {seed}')
+
+        def is_read(text):
+            try:
+                return msq.Document.from_json(text).model
+            except msq.Error:
+                return None
+
+        right = [document(), document("3.0"), document("0.3e1"), document("1e19"), document("-0"),
+                 document("-0.0"), document(version=1.0), document(width=9.0),
+                 document(voxels=[2, 2, 2]), document(voxels=[2.0, 2, 2])]
+        wrong = [document("3.5"), document("-1.0"), document('"3"'), document(version=1.5),
+                 document(width=0), document(voxels=[1, 1, 8]), document(voxels=[2, 1, 4]),
+                 document(voxels=[2.5, 2, 2])]
+        for expected, texts in ((True, right), (False, wrong)):
+            for text in texts:
+                with self.subTest(text):
+                    self.assertEqual(validator.is_valid(json.loads(text)), expected)
+                    self.assertEqual(is_read(text) is not None, expected)
+        if msq.build_info().with_xxhash:
+            self.assertEqual({is_read(text).hash for text in right[:3]}, {is_read(right[0]).hash})
+            grid = {"grid": {"image": {"values": [1], "value_type": "uint8", "size": [1, 1, 1]}}}
+            plain = json.dumps({"msq_model": 1, "fields": {"a": grid}, "scales": [{"shape": BOX}]})
+            self.assertTrue(validator.is_valid(json.loads(plain)))
+            self.assertIsNotNone(is_read(plain))
+
     def keys_of(self, document, path):
         """The keys that msq names when it finds one that it does not know at a path."""
         at = document

@@ -386,7 +386,7 @@ pub const MSQ_COLOUR_MATERIAL: i32 = 2;
 /// red, green, blue = (1 + normal) / 2
 pub const MSQ_COLOUR_NORMAL: i32 = 3;
 
-/// Relative paths below base_directory, without "..". Symbolic links there are followed.
+/// Relative paths below base_directory, without "..", colons and backslashes. Symbolic links there are followed.
 pub const MSQ_DOCUMENT_FILES_BELOW: i32 = 0;
 
 /// None.
@@ -2125,7 +2125,7 @@ pub struct msq_json_def {
     pub struct_size: u32,
     /// Must be 0.
     pub reserved: u32,
-    /// Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as the host or the document gave them.
+    /// Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as msq_shape_from_file got them. Relative paths of a document have the base_directory of that document before them.
     pub base_directory: *const c_char,
     /// In UTF-8. NULL (default): none.
     pub title: *const c_char,
