@@ -47,9 +47,62 @@ class Models(Case):
         # A file elsewhere is named by its whole path, which only --any-files allows.
         other = self.folder / "other"
         other.mkdir()
-        self.msq("model", "bracket.stl", *options, "-o", other / "model.json", cwd=parts)
+        arguments = ["model", "bracket.stl", *options, "-o", other / "model.json"]
+        self.refuse(2, "parts/bracket.stl' is neither in the folder", *arguments, cwd=parts)
+        self.assertEqual(list(other.iterdir()), [])
+        self.msq(*arguments, "--any-files", cwd=parts)
         self.refuse(1, "bracket.stl", "info", other / "model.json")
         self.assertEqual(self.info(other / "model.json", "--any-files")["model_hash"], wanted)
+
+    def test_what_is_written_is_read(self):
+        """Files are named as they are spelled, where that can be read again, and not at all otherwise."""
+        wanted = self.info(BRACKET)["model_hash"]
+        for name in ("in", "in/sub", "out", "in/c:d", "in/b\\s"):
+            (self.folder / name).mkdir()
+        for name in ("in/part.stl", "in/sub/part.stl", "out/part.stl", "in/c:d/part.stl",
+                     "in/b\\s/part.stl", "in/sub/a:b.stl"):
+            shutil.copy(BRACKET, self.folder / name)
+        (self.folder / "in/link.stl").symlink_to(self.folder / "out/part.stl")
+        (self.folder / "in/linked").symlink_to(self.folder / "out")
+        (self.folder / "way").symlink_to(self.folder / "in")
+        (self.folder / "out/deep.stl").symlink_to(self.folder / "in/part.stl")
+        for mesh, output, name in (
+                ("in/part.stl", "in/model.json", "part.stl"),
+                ("in/sub/part.stl", "in/model.json", "sub/part.stl"),
+                ("in/sub/../part.stl", "in/model.json", "part.stl"),
+                ("in/link.stl", "in/model.json", "link.stl"),
+                ("in/linked/part.stl", "in/model.json", "linked/part.stl"),
+                ("in/part.stl", "way/model.json", "part.stl"),
+                ("way/part.stl", "in/model.json", "part.stl"),
+                ("way/part.stl", "way/model.json", "part.stl"),
+                ("out/deep.stl", "in/model.json", "part.stl"),
+                ("in/part.stl", "-", "in/part.stl")):
+            with self.subTest(mesh=mesh, output=output):
+                text = self.msq("model", mesh, "-o", output, cwd=self.folder)
+                path = self.folder / output
+                if output == "-":
+                    path = self.folder / "stdout.json"
+                    path.write_text(text)
+                shape, = json.loads(path.read_text())["scales"]
+                self.assertEqual(shape["shape"]["file"]["file"], name)
+                self.assertEqual(self.info(path)["model_hash"], wanted)
+                path.unlink()
+        for mesh, text in (("in/c:d/part.stl", "'c:d/part.stl' has a colon or a backslash"),
+                           ("in/b\\s/part.stl", "'b\\s/part.stl' has a colon or a backslash"),
+                           ("in/sub/a:b.stl", "'sub/a:b.stl' has a colon"),
+                           ("out/part.stl", "out/part.stl' is neither in the folder")):
+            with self.subTest(mesh=mesh):
+                path = self.folder / "in/model.json"
+                path.write_text("what was there")
+                self.refuse(2, text, "model", mesh, "-o", path, cwd=self.folder)
+                self.assertEqual(path.read_text(), "what was there")
+                self.msq("model", mesh, "-o", path, "--any-files", cwd=self.folder)
+                self.refuse(1, "must be relative", "info", path)
+                self.assertEqual(self.info(path, "--any-files")["model_hash"], wanted)
+        self.refuse(1, "none.stl", "model", "none.stl", "-o", path, cwd=self.folder)
+        self.refuse(1, "none/model.json", "model", "in/part.stl", "-o", "none/model.json",
+                    cwd=self.folder)
+        self.refuse(2, "--any-files: is for model files", "model", BOX, "--any-files")
 
     def test_commands_take_it(self):
         path = self.write()

@@ -36,6 +36,15 @@ constexpr Option PART[] = {
      "a model file may name files anywhere, not only below its own folder"},
 };
 
+// Of msq model, which writes what others read.
+constexpr Option NAMED_PART[] = {
+    PART[0],
+    PART[1],
+    {"any-files", 0, "", Value::NONE, "",
+     "the model file may name a mesh file anywhere, by its whole path, and one with a colon or a "
+     "backslash in its name; it is then read with --any-files"},
+};
+
 constexpr Option STRUCTURE[] = {
     {"foam", 0, "CELL", Value::TEXT, "",
      "a Voronoi foam with one seed in each cell of this size, in mm; CELL or X,Y,Z"},
@@ -253,10 +262,10 @@ const std::vector<Command>& table() {
       {"model",
        "write a model file",
        "Writes the model that the options describe as a model file in JSON. The file can be "
-       "edited, and used in place of the options. The path of a mesh file is relative if the mesh "
-       "is in the folder of the model file or below it, and absolute otherwise.",
+       "edited, and used in place of the options. A mesh file must be in the folder of the model "
+       "file or below it, and is named from there.",
        {{"MODEL", true, "a mesh file or a box, as for other commands"}},
-       {{"Model file", MODEL_FILE}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
+       {{"Model file", MODEL_FILE}, {"Part", NAMED_PART}, STRUCTURE_GROUP, RUNNING_GROUP},
        {"msq model bracket.stl --foam 4 --radius 0.4 -o bracket.json"},
        run_model},
       {"info",

@@ -2,7 +2,6 @@
 #include "scene.h"
 
 #include <array>
-#include <filesystem>
 
 #include "text.h"
 #include "watch.h"
@@ -110,6 +109,10 @@ bool is_model_file(const std::string& path) {
   return ending(path) == ".json";
 }
 
+bool is_box(const std::string& text) {
+  return text.starts_with(BOX);
+}
+
 Context make_context(const Arguments& arguments) {
   if (arguments.has("quiet")) be_quiet();
   auto def = defaults(msq_context_def_init);
@@ -160,24 +163,22 @@ void choose_structure(const Arguments& arguments, Scene& scene) {
   check(msq_model_scale(model, region, scale, nullptr, scene.structure.out()), "--scale");
 }
 
-Scene open_scene(const Arguments& arguments, bool whole_paths) {
+Scene open_scene(const Arguments& arguments, const std::string* mesh_path) {
   const std::string& path = arguments.operand(0);
   if (is_model_file(path)) return open_model_file(arguments);
   Scene scene;
   scene.context = make_context(arguments);
   for (const char* option : {"any-files", "region", "scale"}) {
-    if (arguments.has(option)) arguments.refuse(option, "is for model files");
+    const bool is_allowed = mesh_path && !is_box(path);
+    if (arguments.has(option) && !is_allowed) arguments.refuse(option, "is for model files");
   }
-  if (path.starts_with(BOX)) {
+  if (is_box(path)) {
     for (const char* option : {"unit", "up"}) {
       if (arguments.has(option)) arguments.refuse(option, "does not apply to a box");
     }
     scene.part = make_box(scene.context.get(), path);
   } else {
-    std::error_code error;
-    const std::string whole = std::filesystem::canonical(path, error).string();
-    const bool is_whole = whole_paths && !error;
-    scene.part = read_mesh(arguments, scene.context.get(), is_whole ? whole : path);
+    scene.part = read_mesh(arguments, scene.context.get(), mesh_path ? *mesh_path : path);
   }
   msq_shape_report report = {};
   report.struct_size = sizeof report;

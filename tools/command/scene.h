@@ -23,8 +23,8 @@ struct Scene {
 Context make_context(const Arguments& arguments);
 
 // Reads operand 0: a model file, or a mesh file or a box, which the options fill.
-// whole_paths: mesh files are opened by their whole path, which their model then has.
-Scene open_scene(const Arguments& arguments, bool whole_paths = false);
+// mesh_path: for msq model, the path by which a mesh file is opened, which its model then has.
+Scene open_scene(const Arguments& arguments, const std::string* mesh_path = nullptr);
 
 // Reads a model file alone. Options of a structure are refused.
 Scene open_model_file(const Arguments& arguments);
@@ -33,8 +33,9 @@ Scene open_model_file(const Arguments& arguments);
 // that there is.
 void choose_structure(const Arguments& arguments, Scene& scene);
 
-// Whether an operand names a model file.
+// Whether an operand names a model file, or describes a box.
 bool is_model_file(const std::string& path);
+bool is_box(const std::string& text);
 
 // The structure of the options; none if there are none. bottom, top: where --radius and
 // --radius-top hold. is_calibrated: radius, thickness and level may be left out.
