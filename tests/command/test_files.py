@@ -167,6 +167,32 @@ class Disks(Case):
         self.assertTrue(os.path.exists("/dev/null") and not os.path.isfile("/dev/null"))
 
 
+class Streams(Case):
+    def test_standard_output_by_its_names(self):
+        """Output goes on from where the shell is in its file."""
+        path = self.folder / "all.txt"
+        plain = self.msq("info")
+        for name in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
+            if not (name == "-" or os.path.exists(name)):
+                continue
+            script = f'echo before; "$0" info -o {name}; echo behind'
+            with path.open("w", encoding="utf-8") as file:
+                subprocess.run(["bash", "-c", script, PROGRAM], stdout=file, check=True,
+                               timeout=TIMEOUT)
+            self.assertEqual(path.read_text(), f"before\n{plain}behind\n", name)
+        done = subprocess.run([PROGRAM, "info", "-o", "/dev/stderr"], capture_output=True, text=True,
+                              timeout=TIMEOUT)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", plain))
+
+    def test_pipes_with_names(self):
+        pipe = self.folder / "pipe.csv"
+        os.mkfifo(pipe)
+        with subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE, text=True) as reader:
+            self.msq("query", BOX, "-", "-o", pipe, input="1,1,1\n")
+            self.assertEqual(reader.communicate(timeout=TIMEOUT)[0],
+                             "x,y,z,membership\n1,1,1,1\n")
+
+
 class Terminals(Case):
     def on_terminal(self, *arguments):
         """Standard error of a command that is stopped once it has shown progress."""

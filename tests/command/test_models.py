@@ -180,6 +180,42 @@ class Models(Case):
             head = (self.folder / "a.png").read_bytes()[16:24]
             self.assertEqual((int.from_bytes(head[:4], "big"), int.from_bytes(head[4:], "big")), size)
 
+    def test_a_model_of_all_space_needs_a_region(self):
+        path = self.folder / "all.json"
+
+        def write(**settings):
+            path.write_text(json.dumps({"msq_model": 1, **settings, "scales": [
+                {"shape": {"all_space": {}}},
+                {"structure": {"foam": {"grid": {"cell_size": 2}, "radius": 0.3}}}]}))
+
+        write(slicing={"pitch": 0.5, "layer_height": 0.5})
+        for output in ("layers/", "a.svg", "a.3mf"):
+            self.refuse(2, "fills all space; msq slice needs a region of it, --box", "slice", path,
+                        "-o", self.folder / output)
+        self.refuse(2, "an SL1 archive needs a part with bounds", "slice", path, "-o",
+                    self.folder / "a.sl1")
+        commands = ([["mesh", "--pitch", "0.5"], "a.stl"], [["stats", "--samples", "1000"], "a.txt"],
+                    [["struts"], "a.csv"], [["slice"], "a.svg"])
+        for (command, *options), output in commands[:3]:
+            self.refuse(2, f"fills all space; msq {command} needs a region of it, --box", command, path,
+                        *options, "-o", self.folder / output)
+        for options in ((), ("--size", "30,20"), ("--view", "0,0")):
+            self.refuse(2, "needs a view with a camera", "render", path, *options, "-o",
+                        self.folder / "a.png")
+        self.assertEqual(self.names(), ["all.json"])
+        for (command, *options), output in commands:
+            self.msq(command, path, *options, "--box", "0,0,0,2,2,2", "-o", self.folder / output)
+        write(slicing={"pitch": 0.5, "layer_height": 0.5,
+                       "region": {"min": [0, 0, 0], "max": [2, 2, 2]}},
+              view={"camera": {"eye": [0, 0, 9], "target": [0, 0, 0], "up": [0, 1, 0], "height": 8,
+                               "clip_far": 9}, "width": 30, "height": 20})
+        self.msq("slice", path, "-o", self.folder / "b.svg")
+        self.assertEqual((self.folder / "a.svg").read_bytes(), (self.folder / "b.svg").read_bytes())
+        for options in ((), ("--size", "60,40"), ("--plain",)):
+            self.msq("render", path, *options, "-o", self.folder / "a.png")
+        self.refuse(2, "without --view and --perspective", "render", path, "--view", "0,0", "-o",
+                    self.folder / "a.png")
+
     def test_a_bad_file(self):
         path = self.folder / "bad.json"
         path.write_text('{"msq": 1,\n "shape": 7}')

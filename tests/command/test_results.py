@@ -2,6 +2,7 @@
 """Sub-commands print what the library computes, as its Python package returns it."""
 import io
 import json
+import os
 import unittest
 
 import msq
@@ -124,6 +125,36 @@ class Query(Case):
         self.inside = FOAM_MODEL.contains(self.points)
         self.distance = FOAM_MODEL.distance(self.points)
 
+    def test_names_of_channels_in_utf_8(self):
+        names = ["Härte", "密度", "plain"]
+        channels = [{"name": name, "value": i + 1} for i, name in enumerate(names)]
+        path, out = self.folder / "model.json", self.folder / "values.npy"
+        path.write_text(json.dumps({"msq_model": 1, "scales": [
+            {"shape": {"box": {"max": [1, 1, 1]}},
+             "material": {"plain": {"id": 7, "channels": channels}}}]}))
+        points = "0.5,0.5,0.5\n3,0,0\n"
+        for count in (3, 1):
+            wanted = ["query", path, "-", "-w", "material", "--channels", ",".join(names[-count:])]
+            self.msq(*wanted, "-o", out, input=points)
+            found = np.load(out)
+            self.assertEqual(found.dtype.names, ("material", *names[-count:]))
+            self.assertEqual(out.read_bytes()[6], 3 if count == 3 else 1)
+            self.assertEqual(found["material"].tolist(), [7, 0])
+            self.assertEqual(found["plain"][0], 3)
+        self.assertEqual(found.dtype["plain"], np.dtype("<f8"))
+        text = self.msq(*wanted[:-1], ",".join(names), input=points)
+        self.assertTrue(text.startswith("x,y,z,material,Härte,密度,plain\n0.5,0.5,0.5,7,1,2,3\n"), text)
+        for name in (b"\xff", b"\xe4b", b"\xc0\x80", b"\xed\xa0\x80", b"\xf4\x90\x80\x80", b"a\xe5\xaf"):
+            done = run(*wanted[:-1], os.fsdecode(name), "-o", out, input=b"", binary=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(b"is not UTF-8", done.stderr)
+
+    def test_an_array_needs_a_plain_file(self):
+        pipe = self.folder / "pipe.npy"
+        os.mkfifo(pipe)
+        self.refuse(1, "pipe.npy: no plain file; an array begins with the number of points", "query",
+                    BOX, "-", "-o", pipe, input="1,1,1\n")
+
     def test_csv_and_npy(self):
         csv, npy = self.folder / "points.csv", self.folder / "points.npy"
         np.savetxt(csv, self.points, delimiter=",", fmt="%.17g", header="x,y,z", comments="")
@@ -240,6 +271,20 @@ class Measures(Case):
         found = json.loads(self.msq("calibrate", "--function", "gyroid", "--sheet", "--cell", "2",
                                     "--fraction", "0.3", "--json"))
         self.assertEqual(found["level"], sheet.calibrate(0.3).parameter)
+        # What it replaces is neither used nor shown.
+        gyroid = ["--function", "gyroid", "--cell", "2"]
+        for options, structure in (
+                ([*gyroid, "--sheet", "--level", "0.5"], "function gyroid, cell 2, sheet"),
+                ([*gyroid, "--thickness", "0.5"], "function gyroid, cell 2, sheet"),
+                (["--foam", "2", "--seed", "3", "--radius", "0.5"], "foam 2, seed 3"),
+                (["--foam", "2", "--seed", "3", "--thickness", "0.5"], "foam 2, seed 3"),
+                (["--waves", "2", "--volume-fraction", "0.5"], "waves 2")):
+            again = json.loads(self.msq("calibrate", *options, "--fraction", "0.3", "--json"))
+            self.assertEqual(again["structure"], structure)
+            self.assertAlmostEqual(again["volume_fraction"], 0.3, delta=1e-3)
+            if "gyroid" in options:
+                self.assertEqual(again["level"], found["level"])
+            self.assertEqual("thickness" in again, "foam" in structure and "--thickness" in options)
         waves = msq.Waves(2, count=16, level=0.1, kind="sheet", context=CONTEXT)
         found = json.loads(self.msq("calibrate", "--waves", "2", "--count", "16", "--sheet",
                                     "--fraction", "0.3", "--json"))

@@ -26,6 +26,18 @@ std::string in_quotes(std::string_view value) {
   return "'" + std::string(value) + "'";
 }
 
+// "--name=" has no value. The parser would take the next argument for it.
+void refuse_missing_values(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view text = argv[i];
+    if (text == "--") return;
+    if (text.starts_with("--") && text.ends_with('=')) {
+      throw UsageError(std::string(text.substr(0, text.size() - 1)) +
+                       ": the value behind = is missing");
+    }
+  }
+}
+
 }  // namespace
 
 Arguments::Arguments(const Command& command, int argc, const char* const* argv)
@@ -44,10 +56,13 @@ Arguments::Arguments(const Command& command, int argc, const char* const* argv)
       }
     }
   }
+  std::vector<const CLI::Option*> operands;
   for (size_t i = 0; i < command.operands.size(); ++i) {
     const Operand& operand = command.operands[i];
-    app.add_option(std::string(operand.name), operands_[i])->required(operand.is_required);
+    operands.push_back(
+        app.add_option(std::string(operand.name), operands_[i])->required(operand.is_required));
   }
+  refuse_missing_values(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -57,7 +72,14 @@ Arguments::Arguments(const Command& command, int argc, const char* const* argv)
     throw UsageError(error.what());
   }
   for (const auto& [name, value] : values_) {
-    if (find_option(command, name)->kind == Value::WORDS) word(name);
+    const Value kind = find_option(command, name)->kind;
+    if (kind == Value::WORDS) word(name);
+    if (kind == Value::FILE && value.empty()) refuse(name, "'' is no name of a file");
+  }
+  for (size_t i = 0; i < operands.size(); ++i) {
+    if (operands[i]->count() > 0 && operands_[i].empty()) {
+      throw UsageError(std::string(command.operands[i].name) + ": '' is no name of a file");
+    }
   }
 }
 

@@ -52,6 +52,11 @@ void run_calibrate(const Arguments& arguments) {
   for (const char* option : {"skin", "radius-top"}) {
     if (arguments.has(option)) arguments.refuse(option, "has no meaning here");
   }
+  if (arguments.has("foam") && arguments.has("radius") && arguments.has("thickness")) {
+    arguments.refuse("thickness",
+                     "does not go with --radius here; a foam of struts and walls has two "
+                     "parameters");
+  }
   const bool has_file = !arguments.operand(0).empty();
   const Scene scene = has_file ? open_file(arguments) : make_scene(arguments);
   std::vector<double> parameters(pairs), fractions(pairs);
@@ -69,7 +74,7 @@ void run_calibrate(const Arguments& arguments) {
   if (has_file) {
     report.add("file", arguments.operand(0));
   } else {
-    report.add("structure", describe_structure(arguments));
+    report.add("structure", describe_structure(arguments, true));
   }
   report.add(name, found.parameter);
   report.add("volume_fraction", found.fraction.value);

@@ -20,7 +20,7 @@ void run_mesh(const Arguments& arguments) {
   def.length_scale = arguments.number("length-scale", 0);
 
   const Scene scene = open_scene(arguments);
-  if (arguments.has("box")) {
+  if (arguments.has("box") || !has_bounds(scene.model.get())) {
     def.has_box = 1;
     take_box(arguments, scene.model.get(), def.min, def.max);
   }

@@ -71,7 +71,7 @@ constexpr Option STRUCTURE[] = {
     {"cones", 0, "A,B,C", Value::TEXT, "",
      "half-angles, in degrees, of the cones about the three axes; wave vectors lie in these cones; "
      "0: no cone (default 90,0,0: all directions)"},
-    {"density", 0, "N", Value::TEXT, "", "seeds in a cell of a foam (default 1)"},
+    {"density", 0, "N", Value::TEXT, "", "seeds in a cell of a foam, from 1 to 32768 (default 1)"},
     {"jitter", 0, "J", Value::TEXT, "",
      "displacement of the seeds of a foam, from 0 (centres of cells) to 1 (default 1)"},
     {"seed", 0, "N", Value::TEXT, "", "selects the foam or the waves (default 0)"},
@@ -278,8 +278,9 @@ const std::vector<Command>& table() {
        run_info},
       {"stats",
        "measure volume fraction, correlations and surface",
-       "Measures in a box by stratified random points, with standard errors. Outside the part "
-       "everything is void. The relative density is the share of the part that is solid.",
+       "Measures in a box by stratified random points. The volume fraction and both functions of "
+       "lengths have standard errors. Outside the part everything is void. The relative density is "
+       "the share of the part that is solid.",
        {MODEL},
        {{"Statistics", STATS},
         REPORT_GROUP,
@@ -318,11 +319,12 @@ const std::vector<Command>& table() {
       {"calibrate",
        "find the radius, thickness or level of a volume fraction",
        "Finds the constant parameter at which a structure has a volume fraction: the radius of "
-       "struts, the thickness of the walls of a foam without struts, the level of a surface. It "
-       "measures the structure alone, in whole cells. A field in a model file for this parameter "
-       "is ignored. --radius, --thickness and --level may be left out. Values that a structure can "
-       "have are ignored, but --thickness selects the walls of a foam, and --sheet the sheet of a "
-       "surface.",
+       "struts, the thickness of the walls of a foam without struts, the level of a surface or of "
+       "waves. It measures the structure alone, in whole cells. What the structure has for this "
+       "parameter is ignored, also a field in a model file. So --radius, --thickness, --level and "
+       "--volume-fraction may be left out, but --thickness selects the walls of a foam or the "
+       "sheet of a surface, as --sheet does. A value that is given must be one that a structure "
+       "can have. Foams with both struts and walls have no curve, and are refused.",
        {{"MODEL", false, "a model file (.json), in place of options"}},
        {{"Calibration", CALIBRATE},
         REPORT_GROUP,

@@ -25,9 +25,14 @@ void check_io(msq_status status) {
 }
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {
-  if (path == "-") {
+  // What the shell has opened goes on from where it is, also if it is a plain file.
+  if (path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1") {
     descriptor_ = STDOUT_FILENO;
     path_ = "standard output";
+    return;
+  }
+  if (path == "/dev/stderr" || path == "/dev/fd/2" || path == "/proc/self/fd/2") {
+    descriptor_ = STDERR_FILENO;
     return;
   }
   struct stat status = {};
@@ -43,7 +48,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
 }
 
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) close(descriptor_);
+  if (descriptor_ > STDERR_FILENO) close(descriptor_);
 }
 
 void OutputFile::write(const void* bytes, size_t count) {

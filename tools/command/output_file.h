@@ -17,8 +17,8 @@ namespace command {
 void check_io(msq_status status);
 
 // A file of msq_io, which replaces an existing one in commit(). Without commit() nothing is left.
-// "-" is standard output. It and what is no regular file, such as a pipe or /dev/null, are written
-// in place.
+// "-" and /dev/stdout are standard output. It and what is no regular file, such as a pipe or
+// /dev/null, are written in place.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);

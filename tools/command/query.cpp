@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // msq query: evaluates the model at points.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -48,9 +50,10 @@ Wanted read_wanted(const Arguments& arguments) {
   if (!arguments.has("channels")) return wanted;
   if (!wanted.has(Wanted::MATERIAL)) arguments.refuse("channels", "needs --what material");
   for (const std::string_view name : split(arguments.text("channels"), ',')) {
-    if (name.empty() || name.find_first_of("'\"\\\n") != name.npos) {
+    if (name.empty() || name != one_line(name) || name.find_first_of("'\"\\") != name.npos) {
       arguments.refuse("channels", "'" + std::string(name) + "' is no name of a channel");
     }
+    if (!is_utf8(name)) arguments.refuse("channels", "'" + std::string(name) + "' is not UTF-8");
     const bool is_double =
         std::find(wanted.channels.begin(), wanted.channels.end(), name) != wanted.channels.end();
     if (is_double) arguments.refuse("channels", "has '" + std::string(name) + "' twice");
@@ -219,18 +222,21 @@ class NpyWriter : public Writer {
     bytes_.append(raw, sizeof value);
   }
 
-  // As long for any number of points. Version 1.0 where that can count its bytes, or 2.0.
+  // As long for any number of points. Version 1.0 where that can count its bytes, or 2.0. Version
+  // 3.0, in UTF-8, where names have other characters than ASCII.
   std::string head(uint64_t count) const {
     std::string number = std::to_string(count);
     const std::string room(20 - number.size(), ' ');
     std::string text =
         "{'descr': " + type_ + ", 'fortran_order': False, 'shape': (" + number + ",), }" + room;
-    const bool is_long = text.size() > 60000;
-    const size_t start = is_long ? 12 : 10;
+    const bool is_ascii = std::all_of(text.begin(), text.end(),
+                                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    const char version = !is_ascii ? 3 : text.size() > 60000 ? 2 : 1;
+    const size_t start = version == 1 ? 10 : 12;
     text.append(63 - (start + text.size()) % 64, ' ');
     text += '\n';
     std::string bytes("\x93NUMPY", 6);
-    bytes += is_long ? '\2' : '\1';
+    bytes += version;
     bytes += '\0';
     for (size_t i = 8; i < start; ++i) {
       bytes += static_cast<char>(text.size() >> (8 * (i - 8)) & 255);
@@ -248,8 +254,16 @@ class NpyWriter : public Writer {
 std::unique_ptr<Writer> make_writer(const Arguments& arguments, const Wanted& wanted) {
   const std::string path = arguments.has("output") ? arguments.text("output") : "-";
   if (path == "-" || ending(path) == ".csv") return std::make_unique<CsvWriter>(path, wanted);
-  if (ending(path) == ".npy") return std::make_unique<NpyWriter>(path, wanted);
-  arguments.refuse("output", "'" + path + "' ends neither in .csv nor in .npy");
+  if (ending(path) != ".npy") {
+    arguments.refuse("output", "'" + path + "' ends neither in .csv nor in .npy");
+  }
+  struct stat status = {};
+  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    throw Failure(path +
+                  ": no plain file; an array begins with the number of points, which is "
+                  "known at the end. CSV goes anywhere");
+  }
+  return std::make_unique<NpyWriter>(path, wanted);
 }
 
 }  // namespace

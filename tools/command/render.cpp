@@ -74,7 +74,14 @@ void place_camera(const Arguments& arguments, const Scene& scene, const msq_rend
   if (!(zoom > 0)) arguments.refuse("zoom", arguments.text("zoom") + " is not above 0");
   const bool fits_anew = file_def == nullptr || arguments.has("view") ||
                          arguments.has("perspective") ||
-                         (arguments.has("size") && is_fitted(scene, *file_def, camera));
+                         (arguments.has("size") && has_bounds(scene.model.get()) &&
+                          is_fitted(scene, *file_def, camera));
+  if (fits_anew && !has_bounds(scene.model.get())) {
+    throw UsageError(
+        arguments.operand(0) +
+        " fills all space, to which no camera fits; a picture needs a view with a camera "
+        "in the model file, without --view and --perspective");
+  }
   double direction[3];
   if (arguments.has("view") || file_def == nullptr) {
     std::vector<double> view = {32, 30};
@@ -176,7 +183,7 @@ void run_render(const Arguments& arguments) {
   around.glass = has_glass;
   around.depth = depth.data();
   around.ground = min[2];
-  around.has_ground = camera.eye[2] > camera.target[2];
+  around.has_ground = camera.eye[2] > camera.target[2] && std::isfinite(min[2]);
   std::vector<uint8_t> rgb(3 * pixels);
   check(stage_compose(&around, rgba.data(), rgb.data()));
   save(arguments, def, 3, rgb);

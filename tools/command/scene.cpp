@@ -2,6 +2,7 @@
 #include "scene.h"
 
 #include <array>
+#include <cmath>
 
 #include "text.h"
 #include "watch.h"
@@ -204,8 +205,21 @@ msq_query_def make_query(const Arguments& arguments) {
   return query;
 }
 
+bool has_bounds(const msq_model* model) {
+  double min[3], max[3];
+  check(msq_model_bounds(model, min, max));
+  bool is_finite = true;
+  for (size_t i = 0; i < 3; ++i) is_finite = is_finite && std::isfinite(max[i] - min[i]);
+  return is_finite;
+}
+
 void take_box(const Arguments& arguments, const msq_model* model, double min[3], double max[3]) {
   if (!arguments.has("box")) {
+    if (!has_bounds(model)) {
+      throw UsageError(arguments.operand(0) + " fills all space; msq " +
+                       std::string(arguments.command().name) +
+                       " needs a region of it, --box X,Y,Z,X,Y,Z");
+    }
     check(msq_model_bounds(model, min, max));
     return;
   }

@@ -42,13 +42,17 @@ bool is_box(const std::string& text);
 Structure make_structure(const Arguments& arguments, msq_context* context, double bottom,
                          double top, bool is_calibrated);
 
-// What the options describe, in a line: "foam, cells of 2 mm". "" if there is no structure.
-std::string describe_structure(const Arguments& arguments);
+// What the options describe, in a line: "foam 2, radius 0.3". "" if there is no structure.
+// is_calibrated: without radius, thickness and level.
+std::string describe_structure(const Arguments& arguments, bool is_calibrated = false);
 
 // --length-scale.
 msq_query_def make_query(const Arguments& arguments);
 
-// --box, or the bounding box of the model.
+// Whether the model has bounds. One of all space has none.
+bool has_bounds(const msq_model* model);
+
+// --box, or the bounding box of the model. Throws UsageError if there is neither.
 void take_box(const Arguments& arguments, const msq_model* model, double min[3], double max[3]);
 
 }  // namespace command

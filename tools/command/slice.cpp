@@ -27,6 +27,7 @@ constexpr double TOLERANCE_OF_PITCH = 0.1;
 // By the name: a folder, or a file with an ending that is known.
 Format format_of(const Arguments& arguments) {
   const std::string& path = arguments.text("output");
+  if (path == "-") arguments.refuse("output", "layers do not go to standard output, '-'");
   const std::string end = ending(path);
   struct stat status = {};
   const bool is_folder = path.ends_with('/') || end.empty() ||
@@ -99,11 +100,14 @@ void read_grey(const Arguments& arguments, msq_slicer_def& plan) {
 void read_pixels(const Arguments& arguments, const Scene& scene, msq_slicer_def& plan) {
   if (arguments.has("pitch")) {
     const std::vector<double> pitch = arguments.numbers("pitch", {1, 2});
+    if (!(pitch.front() > 0) || !(pitch.back() > 0)) {
+      arguments.refuse("pitch", "'" + arguments.text("pitch") + "' is not above 0");
+    }
     plan.pitch[0] = pitch.front();
     plan.pitch[1] = pitch.back();
     plan.resolution[0] = plan.resolution[1] = 0;
   }
-  if (arguments.has("box")) {
+  if (arguments.has("box") || (!plan.has_region && !has_bounds(scene.model.get()))) {
     plan.has_region = 1;
     take_box(arguments, scene.model.get(), plan.region_min, plan.region_max);
   }
@@ -290,6 +294,12 @@ void run_slice(const Arguments& arguments) {
   plan.length_scale = arguments.number("length-scale", plan.length_scale);
   read_grey(arguments, plan);
   if (format == Format::SL1) {
+    if (!has_bounds(scene.model.get())) {
+      throw UsageError(
+          arguments.operand(0) +
+          " fills all space; an SL1 archive needs a part with bounds: another shape in "
+          "the first of its scales");
+    }
     check_io(msq_io_panel_plan(scene.model.get(), &panel, &plan));
   } else {
     if (!(plan.pitch[0] > 0) && plan.resolution[0] == 0) arguments.require("pitch");

@@ -101,6 +101,9 @@ std::vector<Report> measure(const Arguments& arguments, const Scene& scene,
   def.length_count = lengths.size();
   if (arguments.has("direction")) {
     const std::vector<double> direction = arguments.numbers("direction", {3});
+    if (direction == std::vector<double>(3, 0.0)) {
+      arguments.refuse("direction", "'" + arguments.text("direction") + "' has no direction");
+    }
     std::copy(direction.begin(), direction.end(), def.direction);
   }
   std::vector<msq_estimate> estimates(lengths.size());

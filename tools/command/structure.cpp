@@ -81,6 +81,12 @@ msq_param make_radius(const Arguments& arguments, msq_context* context, double b
   return {0, field.get()};
 }
 
+// Options whose values a calibration replaces.
+bool is_parameter(std::string_view option) {
+  return option == "radius" || option == "thickness" || option == "level" ||
+         option == "volume-fraction";
+}
+
 struct Place {
   msq_context* context;
   double bottom, top;
@@ -97,6 +103,9 @@ Structure make_foam(const Arguments& arguments, const Place& place) {
                            has_walls ? 0 : ANY_RADIUS * def.grid.cell_size[0], field);
   def.wall_thickness.value = arguments.number("thickness", 0);
   def.density.value = arguments.number("density", 1);
+  if (!(def.density.value >= 1)) {
+    arguments.refuse("density", arguments.text("density") + " is below 1 seed in a cell");
+  }
   def.jitter = arguments.number("jitter", 1);
   def.seed = arguments.count("seed", 0);
   def.vent_radius.value = arguments.number("vent", 0);
@@ -192,13 +201,19 @@ Structure make_structure(const Arguments& arguments, msq_context* context, doubl
   return make_surface(arguments, place, kind->option);
 }
 
-std::string describe_structure(const Arguments& arguments) {
+std::string describe_structure(const Arguments& arguments, bool is_calibrated) {
   const Kind* kind = find_kind(arguments);
   if (!kind) return "";
   std::string text(kind->option);
   text += " " + arguments.text(kind->option);
+  const bool is_foam = kind->option == "foam";
   for (const std::string_view option : kind->takes) {
     if (!arguments.has(option)) continue;
+    if (is_calibrated && is_parameter(option)) {
+      // Its value does not count. That it is there tells sheets from networks.
+      if (option == "thickness" && !is_foam && !arguments.has("sheet")) text += ", sheet";
+      continue;
+    }
     text += ", " + std::string(option);
     if (!arguments.text(option).empty()) text += " " + arguments.text(option);
   }

@@ -90,6 +90,24 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+bool is_utf8(std::string_view text) {
+  for (size_t i = 0; i < text.size();) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const size_t more = first < 0x80 ? 0 : first < 0xe0 ? 1 : first < 0xf0 ? 2 : 3;
+    if ((first >= 0x80 && first < 0xc2) || first > 0xf4 || i + more >= text.size()) return false;
+    uint32_t code = more == 0 ? first : first & (0x3f >> more);
+    for (size_t k = 1; k <= more; ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      if ((next & 0xc0) != 0x80) return false;
+      code = code << 6 | (next & 0x3f);
+    }
+    const bool is_overlong = (more == 2 && code < 0x800) || (more == 3 && code < 0x10000);
+    if (is_overlong || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff) return false;
+    i += more + 1;
+  }
+  return true;
+}
+
 std::string to_hex(const uint8_t* bytes, size_t count) {
   static constexpr char DIGITS[] = "0123456789abcdef";
   std::string text;

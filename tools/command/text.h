@@ -37,6 +37,9 @@ std::string ending(std::string_view path);
 // The text with control characters replaced, so that it is one line.
 std::string one_line(std::string_view text);
 
+// Whether the text is UTF-8.
+bool is_utf8(std::string_view text);
+
 // Hexadecimal digits.
 std::string to_hex(const uint8_t* bytes, size_t count);
 
