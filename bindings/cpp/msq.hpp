@@ -12,8 +12,9 @@
 /// Callbacks. A callback is anything that can be called with the given arguments: a lambda, a
 /// function, a std::function. It returns nothing, or an int32_t: 0 for success, another code to
 /// stop the call, which then throws msq::Error with that host_code(). An exception that leaves a
-/// callback stops the call of msq, which throws it again on the thread that called. Only warnings
-/// must not throw: what they throw is dropped.
+/// callback stops the call of msq, which throws it again on the thread that called. Of more than
+/// 65536 exceptions that wait for their calls to return, the oldest is lost, and its call throws
+/// msq::Error. Only warnings must not throw: what they throw is dropped.
 ///
 /// Threads. As in msq.h: handles may be shared; callbacks of objects with concurrent = 1 run on any
 /// thread.
@@ -30,6 +31,7 @@
 #include <exception>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -72,47 +74,58 @@ namespace detail {
 
 /// Exceptions that left callbacks, each until the call of msq that it stops returns. A callback
 /// returns the number of its exception as the host's code. Of callbacks that throw at the same time
-/// in one call, one is thrown again and the others stay until their places are needed.
+/// in one call, one is thrown again, and nothing tells which others belong to that call. They stay
+/// until max_kept exceptions wait, when the oldest gives way.
 class Thrown {
  public:
+  static constexpr size_t max_kept = 65536;
+
+  /// Without memory the exception is lost, and check() throws Error with the code.
   static int32_t keep(std::exception_ptr exception) noexcept {
+    std::exception_ptr oldest;  // freed without the lock: what it holds may call msq
     const std::lock_guard<std::mutex> lock(mutex());
-    const uint32_t number = next()++ % numbers;
-    places()[number % places().size()] = {code_of(number), std::move(exception)};
-    return code_of(number);
+    Waiting& waiting = exceptions();
+    const uint64_t number = waiting.next++;
+    try {
+      waiting.kept.emplace_hint(waiting.kept.end(), number, std::move(exception));
+    } catch (...) {
+    }
+    if (waiting.kept.size() > max_kept) {
+      oldest = std::move(waiting.kept.begin()->second);
+      waiting.kept.erase(waiting.kept.begin());
+    }
+    return first_code - static_cast<int32_t>(number % codes);
   }
 
   /// NULL if the code is not that of an exception.
   static std::exception_ptr take(int32_t code) noexcept {
     if (code > first_code) return nullptr;
     const std::lock_guard<std::mutex> lock(mutex());
-    Place& place = places()[number_of(code) % places().size()];
-    if (place.code != code) return nullptr;
-    place.code = 0;
-    return std::exchange(place.exception, nullptr);
+    Waiting& waiting = exceptions();
+    // The newest number with this code.
+    const uint64_t back = (waiting.next - 1 - static_cast<uint64_t>(first_code - code)) % codes;
+    const auto found = waiting.kept.find(waiting.next - 1 - back);
+    if (found == waiting.kept.end()) return nullptr;
+    std::exception_ptr exception = std::move(found->second);
+    waiting.kept.erase(found);
+    return exception;
   }
 
  private:
-  struct Place {
-    int32_t code = 0;
-    std::exception_ptr exception;
+  struct Waiting {
+    uint64_t next = 1;
+    std::map<uint64_t, std::exception_ptr> kept;  // by number, so that the first is the oldest
   };
   static constexpr int32_t first_code = -(int32_t{1} << 30);
-  static constexpr uint32_t numbers = uint32_t{1} << 30;
+  static constexpr uint64_t codes = uint64_t{1} << 30;
 
-  static int32_t code_of(uint32_t number) { return first_code - static_cast<int32_t>(number); }
-  static uint32_t number_of(int32_t code) { return static_cast<uint32_t>(first_code - code); }
   static std::mutex& mutex() {
     static std::mutex mutex;
     return mutex;
   }
-  static uint32_t& next() {
-    static uint32_t next = 0;
-    return next;
-  }
-  static std::array<Place, 256>& places() {
-    static std::array<Place, 256> places;
-    return places;
+  static Waiting& exceptions() {
+    static Waiting waiting;
+    return waiting;
   }
 };
 
