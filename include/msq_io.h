@@ -217,9 +217,9 @@ MSQ_IO_API msq_status msq_io_panel_def_init(msq_io_panel_def* def, size_t size);
 /** Sets the fields of a slicer's definition that depend on the panel: resolution, region,
  * orientation and, if plan has no outputs, output = MSQ_LAYER_GREY. The part is centred on the
  * panel. plan must come from msq_slicer_def_init and have a layer_height or layer_z. The bottom of
- * layer 0 is the bottom of the model, unless layer_z lists the layers. The unit of the model must be
- * the millimetre. Other fields of plan stay as they are. panel NULL: defaults. Errors: ARGUMENT (also for a model of all space, and for one
- * larger than the panel). */
+ * layer 0 is the bottom of the model, unless layer_z lists the layers. The unit of the model must
+ * be the millimetre. Other fields of plan stay as they are. panel NULL: defaults. Errors: ARGUMENT
+ * (also for a model of all space, and for one larger than the panel). */
 MSQ_IO_API msq_status msq_io_panel_plan(const msq_model* model, const msq_io_panel_def* panel,
                                         msq_slicer_def* plan);
 

@@ -185,6 +185,16 @@ class Io(unittest.TestCase):
                 np.testing.assert_array_equal(pixels, layer.data)
             self.assertEqual(sum("thumbnail" in name for name in archive.namelist()), 2)
 
+    def test_panel_of_listed_heights(self):
+        heights = [1.25, 1.75, 2.25]
+        slicer = msq.io.panel_slicer(self.model, layer_z=heights)
+        self.assertEqual([slicer.layer_z(i) for i in range(len(slicer))], heights)
+        with self.assertRaisesRegex(msq.ArgumentError, "layer_height"):
+            msq.io.panel_slicer(self.model)
+        uneven = msq.io.panel_slicer(self.model, layer_z=[1, 2, 4])
+        with self.assertRaisesRegex(msq.ArgumentError, "apart"):
+            msq.io.save_sl1(uneven, self.folder / "part.sl1")
+
     def test_contours(self):
         slicer = self.model.slicer(layer_height=0.5, pitch=0.1, output=[
             msq.Output("bits"), msq.Output("contours", tolerance=0.01)])
