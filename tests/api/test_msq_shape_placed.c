@@ -64,6 +64,32 @@ static void report_is_that_of_the_instance(void** state) {
   msq_context_release(context);
 }
 
+/* Along (1, 2, 2) nothing grows, along (2, 1, -2) lengths become 3 times as large, along (2, -2, 1)
+ * 6 times. The nearest points of the ellipsoid are on the first of these axes. */
+static void distances_are_those_of_the_least_growth(void** state) {
+  const double axes[3][3] = {{1, 2, 2}, {2, 1, -2}, {2, -2, 1}}, growth[3] = {1, 3, 6};
+  const double origin[3] = {0, 0, 0};
+  double stretch[12] = {0};
+  msq_context* context = make_context();
+  msq_shape *ball, *shape;
+  (void)state;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < 3; ++j)
+      for (size_t k = 0; k < 3; ++k) stretch[4 * i + j] += growth[k] * axes[k][i] * axes[k][j] / 9;
+  assert_ok(msq_shape_from_sphere(context, origin, 3, &ball));
+  assert_ok(msq_shape_placed(ball, stretch, &shape));
+  msq_model* model = make_shape_model(context, shape); /* releases it */
+  for (double t = 1.25; t < 4; t += 0.25) {
+    const double p[3] = {t, 2 * t, 2 * t};
+    double distance;
+    assert_ok(msq_point_distance(model, p, NULL, &distance));
+    assert_near(distance, 3 * t - 3, 1e-9);
+  }
+  msq_model_release(model);
+  msq_shape_release(ball);
+  msq_context_release(context);
+}
+
 /* A scale can leave a skin in an instance, but not in a stretched one. */
 static void skin_needs_equal_growth(void** state) {
   msq_context* context = make_context();
@@ -100,6 +126,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(membership_is_that_of_the_mapped_point),
       cmocka_unit_test(report_is_that_of_the_instance),
+      cmocka_unit_test(distances_are_those_of_the_least_growth),
       cmocka_unit_test(skin_needs_equal_growth),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -256,6 +256,23 @@ void normals_of_round_ends_are_those_of_balls(void**) {
   }
 }
 
+/// The whole ball of the thicker end would stand out of the side there.
+void normals_beside_half_balls_are_those_of_sides(void**) {
+  const Vec3 a{0, 0, 0}, b{4, 0, 0};
+  const double by = 1 / std::sqrt(17.0);
+  constexpr BeamCap half = BeamCap::hemisphere;
+  for (const auto& [beam, x, normal] :
+       {std::tuple{Beam{a, b, 2, 1, half, half}, 0.2, Vec3{by, 4 * by, 0}},
+        {Beam{a, b, 1, 2, half, half}, 3.8, Vec3{-by, 4 * by, 0}}}) {
+    const Ref<Beams> made = make({beam});
+    RaySearch search{{{x, 5, 0}, {0, -1, 0}}, 0, 20};
+    made->enter(&search, 1, nullptr);
+    assert_true(search.found && std::abs(search.t - 3.05) < 1e-9);
+    assert_true(length(search.normal - normal) < 1e-9);
+    assert_true(length(made->normal(search.ray, search.t) - normal) < 1e-9);
+  }
+}
+
 /// So slender that rounding of the squared distance from the axis exceeds the squared radius. The
 /// rays cross the axis, soon after they begin.
 void rays_meet_slender_beams(void**) {
@@ -342,6 +359,7 @@ int main() {
       cmocka_unit_test(distances_are_exact_outside),
       cmocka_unit_test(the_distance_to_a_beam_leads_to_it),
       cmocka_unit_test(normals_of_round_ends_are_those_of_balls),
+      cmocka_unit_test(normals_beside_half_balls_are_those_of_sides),
       cmocka_unit_test(rays_meet_slender_beams),
       cmocka_unit_test(the_curve_goes_from_neighbour_to_neighbour),
       cmocka_unit_test(memory_is_counted_and_given_back),

@@ -346,6 +346,48 @@ void long_boxes_of_samples_are_divided(void**) {
 
 // A ball united with itself grows by a quarter of the radius k, which falls by 2 along y: 1.5 times
 // the way along y is what the value changes by.
+/// Rows of the samples have what points have.
+void check_rows(const Structure& structure, const SampleGrid& grid) {
+  std::vector<uint64_t> words(grid.ny, (uint64_t{1} << grid.nx) - 1);
+  RowBlock block;
+  block.grid = &grid;
+  block.y1 = grid.ny;
+  block.z1 = 1;
+  block.words = words.data();
+  block.row_stride = 1;
+  block.layer_stride = grid.ny;
+  structure.keep_rows(block, nullptr);
+  for (uint64_t j = 0; j < grid.ny; ++j)
+    for (uint64_t i = 0; i < grid.nx; ++i)
+      assert_int_equal(words[j] >> i & 1, structure.inside(grid.at(i, j, 0)));
+}
+
+// A box of one sample cannot be divided, even where the surface of the fillet is nearer to it than
+// rounding.
+void single_samples_next_to_fillets_are_decided(void**) {
+  const Vec3 middle{0.3, 0.2, 0.1};
+  const StructureRef made =
+      smoothed(Operation::united, make_ref<Ball>(middle, 1.0), make_ref<Ball>(middle, 1.0), 0.4);
+  double low = middle.x + 1, high = middle.x + 1.5;
+  for (double x; x = 0.5 * (low + high), low < x && x < high;)
+    (made->inside({x, middle.y, middle.z}) ? low : high) = x;
+  assert_true(made->inside({low, middle.y, middle.z}) && !made->inside({high, middle.y, middle.z}));
+  for (const double x : {low, high})
+    check_rows(*made, {{x, middle.y, middle.z}, {high - low, 1, 1}, 1, 1, 1});
+}
+
+// Samples far away, two columns of which are next to each other among all numbers. The middle of
+// their box is rounded to the first, which is in a ball. The second is outside of it and, as the
+// other ball is nearly as far as the radius, of the fillet.
+void boxes_of_samples_far_away_hold_their_samples(void**) {
+  constexpr double x = 0x1p33, next = 0x1p-19, k = 0.4;
+  const StructureRef made =
+      smoothed(Operation::united, make_ref<Ball>(Vec3{x - 1, 0, 0}, 1 + 0.75 * next),
+               make_ref<Ball>(Vec3{x + 3, 0, 0}, 3 - k + 1e-4), k);
+  assert_true(made->inside({x, 0, 0}) && !made->inside({x + next, 0, 0}));
+  check_rows(*made, {{x, 0, 0}, {next, 0x1p-30, 1}, 2, 32, 1});
+}
+
 void distances_heed_slopes_of_radii(void**) {
   const StructureRef ball = make_ref<Ball>(Vec3{}, 1.0);
   const Ref<const Field> radius =
@@ -416,6 +458,8 @@ int main() {
       cmocka_unit_test(blends_of_waves_have_steady_distances),
       cmocka_unit_test(rows_stop_when_cancelled),
       cmocka_unit_test(long_boxes_of_samples_are_divided),
+      cmocka_unit_test(single_samples_next_to_fillets_are_decided),
+      cmocka_unit_test(boxes_of_samples_far_away_hold_their_samples),
       cmocka_unit_test(distances_heed_slopes_of_radii),
       cmocka_unit_test(copies_of_rows_are_counted),
   };

@@ -198,6 +198,33 @@ void test_steps_miss_no_thin_wall(void**) {
   }
 }
 
+/// Where the numbers next to each other are farther apart than all other errors, the middle of a
+/// box between two of them is one of the two.
+void test_boxes_of_neighbouring_numbers(void**) {
+  const Neighbourhood grid{{0x1p34, -0x1p34, 0x1p34}, {1, 1, 1}, {}};
+  for (const double vent_radius : {0.0, 0.3}) {
+    const FoamWalls walls(context(), grid, Parameter(0.2), 1, 9, Parameter(1),
+                          Parameter(vent_radius));
+    Random random(8);
+    size_t changes = 0;
+    for (size_t i = 0; i < 200; ++i) {
+      const Vec3 start = grid.origin + random.in_box({{-9, -9, -9}, {9, 9, 9}});
+      const int axis = static_cast<int>(random.below(3));
+      Vec3 low = start, high = start;
+      high[axis] += 0.5;
+      if (walls.inside(low) == walls.inside(high)) continue;
+      for (Vec3 middle = low;;) {
+        middle[axis] = 0.5 * (low[axis] + high[axis]);
+        if (middle[axis] == low[axis] || middle[axis] == high[axis]) break;
+        (walls.inside(middle) == walls.inside(low) ? low : high) = middle;
+      }
+      ++changes;
+      assert_true(walls.classify({low, high}) == BoxClass::mixed);
+    }
+    assert_true(changes > 20);
+  }
+}
+
 /// Struts and walls are the union of both.
 void test_struts_and_walls(void**) {
   const Neighbourhood grid{{}, {1, 0.8, 1.2}, {}};
@@ -222,9 +249,12 @@ void test_struts_and_walls(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(test_one_seed_a_cell),         cmocka_unit_test(test_without_jitter),
-      cmocka_unit_test(test_graded_density),          cmocka_unit_test(test_rays_meet_walls),
-      cmocka_unit_test(test_steps_miss_no_thin_wall), cmocka_unit_test(test_struts_and_walls)};
+  const CMUnitTest tests[] = {cmocka_unit_test(test_one_seed_a_cell),
+                              cmocka_unit_test(test_without_jitter),
+                              cmocka_unit_test(test_graded_density),
+                              cmocka_unit_test(test_rays_meet_walls),
+                              cmocka_unit_test(test_steps_miss_no_thin_wall),
+                              cmocka_unit_test(test_struts_and_walls),
+                              cmocka_unit_test(test_boxes_of_neighbouring_numbers)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -5,6 +5,7 @@
 
 #include "base/status.h"
 #include "expression/parser.h"
+#include "field/host.h"
 #include "random.h"
 #include "ray_check.h"
 #include "structure/functional/ray_search.h"
@@ -112,6 +113,46 @@ void rays_shortly_along_surfaces_lose_nothing(void**) {
   }
 }
 
+/// As above, with a level of which a host says how steep it is: its range at a point is rounded.
+void rays_shortly_along_host_levels_lose_nothing(void**) {
+  HostFieldCalls calls;
+  calls.evaluate = [](const Vec3*, size_t count, double* values) {
+    std::fill_n(values, count, 3.0);
+  };
+  const auto level = make_ref<HostField>(calls, Interval{0, 4}, 1.0, true);
+  const auto solid =
+      make_ref<Functional>(Neighbourhood{}, parse_expression("min(x,3+1e6*(abs(y-4)-4.5e-9))", {}),
+                           FunctionalKind::network, Parameter(Ref<const Field>(level)), 1);
+  const double x = std::nextafter(3 / two_pi, 1.0) + 0x1p-51, y = (4 - 4.5e-9) / two_pi;
+  const double tolerance = solid->ray_tolerance();
+  for (const double way : {1000.0, 3000.0, 5000.0}) {
+    RaySearch search{{{x, y - way * tolerance, 0.2}, {0, 1, 0}}, 0, 0.1};
+    assert_false(solid->inside(search.ray.at(0)));
+    solid->enter(&search, 1, nullptr);
+    if (!(search.found && std::abs(search.t - way * tolerance) < 4 * tolerance))
+      fail_msg("%d at %g tolerances, not %g", search.found, search.t / tolerance, way);
+  }
+}
+
+/// Steps of 10^-4 cells, as many as lead past 20 cells: no part of that length is lost.
+void many_short_steps_lose_nothing(void**) {
+  constexpr double steepest = 1e4;
+  for (const double place : {17.3, 18.7, 19.9}) {
+    HostFieldCalls calls;
+    calls.evaluate = [place](const Vec3* points, size_t count, double* values) {
+      for (size_t i = 0; i < count; ++i)
+        values[i] = std::max(-1.0, 1 - steepest * std::abs(points[i].y - place));
+    };
+    const auto level = make_ref<HostField>(calls, Interval{-1, 1}, steepest, true);
+    const auto solid =
+        make_ref<Functional>(Neighbourhood{}, parse_expression("sin(x)", {}),
+                             FunctionalKind::network, Parameter(Ref<const Field>(level)), 1);
+    RaySearch search{{{0, 0, 0}, {0, 1, 0}}, 0, 20};
+    solid->enter(&search, 1, nullptr);
+    assert_true(search.found && std::abs(search.t - (place - 1 / steepest)) < 1e-8);
+  }
+}
+
 /// More rays than are searched at once, some of which have no length or are none.
 void rays_together_are_as_each_alone(void**) {
   for (const char* text : {"sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)", "x^2+y^2+z^2-9"}) {
@@ -188,6 +229,8 @@ int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(rays_along_surfaces_end),
                               cmocka_unit_test(rays_along_surfaces_find_what_is_beyond),
                               cmocka_unit_test(rays_shortly_along_surfaces_lose_nothing),
+                              cmocka_unit_test(rays_shortly_along_host_levels_lose_nothing),
+                              cmocka_unit_test(many_short_steps_lose_nothing),
                               cmocka_unit_test(rays_together_are_as_each_alone),
                               cmocka_unit_test(searches_stop_with_their_job),
                               cmocka_unit_test(steep_functions_end)};

@@ -146,6 +146,18 @@ void test_saddles_are_joined_as_their_middle_is(void**) {
   }
 }
 
+/// A shear outwards makes cells around an axis half as wide as they are long, so that squares are
+/// half as large: the lines along the x axis are apart by one and a half of them.
+void test_lines_of_sheared_cells(void**) {
+  constexpr double shear = 1.75;
+  const auto f = make_ref<Functional>(
+      Neighbourhood{}, parse_expression("sin(12*y)", {}), FunctionalKind::sheet, Parameter(0.1), 0,
+      Warp(Warp::Kind::cylindrical, {}, Warp::Shell{6, 0, 1, 4, shear, 0}));
+  const LineGraph graph = f->wall_lines({0.3, {{1.1, -0.2}, {3.3, 0.2}}, 1e-4});
+  // 24 to a cell.
+  assert_int_equal(crossings(graph, {1.2, 0.01}, {3.2, 0.01}), 24 * 2 * shear);
+}
+
 void test_a_circle(void**) {
   // (x - pi)^2 + (y - pi)^2 = 4, in a cell of 2 pi: one closed path of length 4 pi in each cell.
   // The function jumps at the cells' borders, without a line there.
@@ -252,6 +264,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(test_lines_are_on_the_level),
       cmocka_unit_test(test_saddles_are_joined_as_their_middle_is),
+      cmocka_unit_test(test_lines_of_sheared_cells),
       cmocka_unit_test(test_a_circle),
       cmocka_unit_test(test_a_jump_is_no_wall),
       cmocka_unit_test(test_paths_end_where_lines_meet),

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/unit.h"
 #include "meshes.h"
 #include "random.h"
 #include "suite.h"
@@ -84,6 +85,8 @@ std::vector<Row> rows() {
   std::vector<TreeTriangle> twice = flat_net(6), same = twice;
   twice.insert(twice.end(), same.begin(), same.end());
   rows.push_back({"all twice", std::move(twice)});
+  rows.push_back(
+      {"all the same", std::vector(200, TreeTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}))});
   return rows;
 }
 
@@ -204,10 +207,19 @@ void check_blocks(const Row& row, const Ray& ray, double from, double to, double
   }
 }
 
+/// The numbers that the tree gives the triangles, by what is nearest to their middles.
+std::vector<uint32_t> numbers_of(const Row& row, const TriangleTree& tree) {
+  std::vector<uint32_t> numbers;
+  for (const TreeTriangle& t : row.triangles)
+    numbers.push_back(tree.nearest(t.a + (t.u + t.v) * (1.0 / 3), 0).triangle);
+  return numbers;
+}
+
 /// A tree of a single triangle says whether and where a ray crosses that.
 void test_crossings(void** state) {
   const Row& row = *static_cast<const Row*>(*state);
   const TriangleTree tree(row.triangles, nullptr);
+  const std::vector<uint32_t> numbers = numbers_of(row, tree);
   std::vector<TriangleTree> single;
   for (const TreeTriangle& t : row.triangles)
     single.emplace_back(std::vector<TreeTriangle>{t}, nullptr);
@@ -230,10 +242,14 @@ void test_crossings(void** state) {
       if (row.name == "degenerate") continue;
       TriangleTree::Crossing first{std::numeric_limits<double>::infinity(), {}}, one, got;
       bool wanted = false;
-      for (const TriangleTree& of_one : single)
-        if (of_one.first_crossing(ray, begin, end, margin, one)) {
+      uint32_t lowest = 0;  // of those at the first t
+      for (size_t n = 0; n < single.size(); ++n)
+        if (single[n].first_crossing(ray, begin, end, margin, one)) {
+          if (!wanted || one.t < first.t || (one.t == first.t && numbers[n] < lowest)) {
+            first = one;
+            lowest = numbers[n];
+          }
           wanted = true;
-          if (one.t < first.t) first = one;
         }
       const bool is_found = tree.first_crossing(ray, begin, end, margin, got);
       if (wanted && !(is_found && got.t <= first.t))
@@ -242,9 +258,26 @@ void test_crossings(void** state) {
       if (grazes(row, ray)) continue;
       assert_int_equal(is_found, wanted);
       if (wanted && !(got.t == first.t)) fail_msg("%.17g, not %.17g", got.t, first.t);
+      if (wanted && !(got.normal == first.normal)) fail_msg("another triangle at %.17g", got.t);
     }
   }
   hwy::SetSupportedTargetsForTest(0);
+}
+
+/// Points of a sliver are at no distance, and points beside it are as far as they were moved.
+void distances_to_slivers_are_right(void**) {
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 along = random.direction(), across = unit_along(cross(along, random.direction()));
+    const Vec3 above = cross(along, across), a = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+    const double height = std::ldexp(1.0, -24 - i % 28), s = random.between(0.01, 0.99);
+    const TreeTriangle sliver(a, a + along, a + along * s + across * height);
+    const TriangleTree tree({sliver}, nullptr);
+    const double u = random.unit(), v = random.unit() * (1 - u), away = random.below(2) ? 0 : 0.25;
+    const double distance = tree.distance(sliver.a + sliver.u * u + sliver.v * v + above * away);
+    if (!(std::abs(distance - away) <= 0x1p-22))
+      fail_msg("height %g: %g, not %g", height, distance, away);
+  }
 }
 
 /// Along its own line a needle seems to reach far beyond its ends: the margin over its height.
@@ -264,7 +297,8 @@ void needles_are_not_crossed_beyond_their_ends(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(needles_are_not_crossed_beyond_their_ends)};
+  const CMUnitTest tests[] = {cmocka_unit_test(distances_to_slivers_are_right),
+                              cmocka_unit_test(needles_are_not_crossed_beyond_their_ends)};
   std::vector<Row> all = rows();
   return cmocka_run_group_tests_name("triangle tree", tests, nullptr, nullptr) +
          run_for_each("distances", all, test_distances) +
