@@ -11,6 +11,7 @@
 #include "random.h"
 #include "structure/foam/point/edges_near.h"
 #include "structure/foam/rays/packets.h"
+#include "structure/foam/rays/strut_entry.h"
 #include "structures.h"
 #include "suite.h"
 
@@ -221,6 +222,43 @@ void struts_end_for_shallow_rays(void**) {
   assert_true(rays > 100);
 }
 
+/// Of a strut whose seeds are not known, rays that begin nearer to the surface than the error of
+/// its ends and graze it farther on, so shortly that steps of an eighth of the way may miss that.
+void grazes_of_struts_without_seeds_are_found(void**) {
+  constexpr double radius = 0.05, depth = 1e-9;
+  const Ref<const Foam> foam = make_ref<Foam>(shared_context(), Neighbourhood{}, Parameter(radius),
+                                              1.0, uint64_t{7}, FoamMethod::direct);
+  const StrutEntries entries(*foam);
+  const double near = std::sqrt(2 * radius * end_error), half = std::sqrt(2 * radius * depth);
+  Random random(14);
+  size_t rays = 0;
+  const auto check = [&](Vec3 a, Vec3 b, double) {
+    if (length(b - a) < radius) return;
+    const Vec3 along = unit_along(b - a), out = unit_along(cross(along, random.direction()));
+    const Vec3 way = cross(out, along), top = (a + b) * 0.5 + out * (radius - depth);
+    const double before = near * random.between(0.2, 0.8);
+    RaySearch search;
+    search.ray = {top - way * before, way};
+    search.to = 2 * near;
+    bool is_alone = foam->inside(top);  // no other strut is as near
+    for (double t = 1.5 * half; t < search.to; t += 0.5 * half)
+      is_alone = is_alone && !foam->inside(top + way * t) && !foam->inside(top - way * t);
+    if (!is_alone) return;
+    ++rays;
+    StrutLine strut;
+    const auto single = [](Vec3 p) {
+      return std::array{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    };
+    entries.set_ends(single(a), single(b), {0, 0, 0}, strut);
+    const StrutEntry entry = entries.find(entries.ray(search), strut);
+    if (!entry.is_met || !foam->inside(search.ray.at(entry.t)) ||
+        foam->inside(search.ray.at(entry.t - 2 * foam->ray_tolerance())))
+      fail_msg("a ray %g before a strut: %d %g", before, entry.is_met, entry.t);
+  };
+  foam->for_each_strut({{0, 0, 0}, {2, 2, 2}}, check, nullptr);
+  assert_true(rays > 30);
+}
+
 /// Rays that end about where they enter, or begin about where they leave. Cells are so flat that
 /// the seeds of many struts are too many cells apart to be kept, or so far away that rounding
 /// counts.
@@ -270,6 +308,7 @@ void rays_end_and_begin_at_struts(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(struts_end_for_shallow_rays),
+                              cmocka_unit_test(grazes_of_struts_without_seeds_are_found),
                               cmocka_unit_test(rays_end_and_begin_at_struts)};
   const int failed = cmocka_run_group_tests_name("foam rays", tests, nullptr, nullptr);
   std::vector<StructureRow> rows;
