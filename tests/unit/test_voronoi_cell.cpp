@@ -60,7 +60,7 @@ double apart(const std::pair<Vec3, Vec3>& l, const std::pair<Vec3, Vec3>& r) {
 void test_random_cells(void**) {
   Random random(9);
   VoronoiCell cell;
-  size_t edges = 0, walked = 0, skipped = 0, resumed = 0;
+  size_t edges = 0, walked = 0, skipped = 0, resumed = 0, anew = 0;
   const size_t count = test_count(1500);
   for (size_t n = 0; n < count; ++n) {
     // Seeds that enclose the cell, and more at random.
@@ -113,6 +113,9 @@ void test_random_cells(void**) {
       assert_true(cell.add_vertex(k.plane[0], k.plane[1], k.plane[2], k.position));
     assert_true(cell.walk());
     assert_int_equal(cell.vertex_count(), vertices);
+    anew += cell.found_anew();
+    for (size_t v = 0; v < known.size() && !cell.found_anew(); ++v)
+      assert_true(cell.vertex(v) == known[v].position);
     size_t found = 0, again = 0;
     cell.for_each_new_vertex([&](const uint8_t*, Vec3) { ++found; });
     if (found > 0) resumed += known.size();  // 0: found anew in double precision
@@ -126,6 +129,7 @@ void test_random_cells(void**) {
     assert_int_equal(again, got.size());
   }
   assert_true(resumed > edges / 9);
+  assert_true(anew <= walked / 100);
   print_message("%zu cells, %zu edges; %zu degenerate cells left out\n", walked, edges, skipped);
   assert_true(walked > count * 9 / 10);
 }
