@@ -280,6 +280,30 @@ void distances_to_slivers_are_right(void**) {
   }
 }
 
+/// From far away the margin vanishes in rounding: of a triangle along the sides of its box, both
+/// are crossed at the same t up to that.
+void boxes_without_depth_are_crossed_where_triangles_are(void**) {
+  Random random(6);
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1) {
+    hwy::SetSupportedTargetsForTest(all & -all);
+    for (int i = 0; i < 1000; ++i) {
+      const double x = random.between(-1, 1);
+      const TreeTriangle flat({x, -1, -1}, {x, 1, -1}, {x, 0, 1});
+      const TriangleTree tree({flat}, nullptr);
+      const Vec3 on{x, random.between(-0.2, 0.2), random.between(-0.2, 0.2)};
+      const Vec3 way = unit_along(Vec3{1, random.between(-0.2, 0.2), random.between(-0.2, 0.2)});
+      const double away = random.between(1e6, 1e9);
+      const Ray ray{on - way * away, way};
+      TriangleTree::Crossing crossing, again;
+      assert_true(tree.first_crossing(ray, 0, 2 * away, 1e-12, crossing));
+      const double t = crossing.t;
+      assert_true(tree.first_crossing(ray, t, 2 * away, 1e-12, again) && again.t == t);
+      assert_true(tree.first_crossing(ray, t, t, 1e-12, again) && again.t == t);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
 /// Along its own line a needle seems to reach far beyond its ends: the margin over its height.
 void needles_are_not_crossed_beyond_their_ends(void**) {
   const TreeTriangle needle({0, 0, 0}, {1, 0, 0}, {0.5, 0x1p-30, 0});
@@ -298,6 +322,7 @@ void needles_are_not_crossed_beyond_their_ends(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(distances_to_slivers_are_right),
+                              cmocka_unit_test(boxes_without_depth_are_crossed_where_triangles_are),
                               cmocka_unit_test(needles_are_not_crossed_beyond_their_ends)};
   std::vector<Row> all = rows();
   return cmocka_run_group_tests_name("triangle tree", tests, nullptr, nullptr) +
