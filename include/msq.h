@@ -2099,8 +2099,8 @@ typedef struct msq_struts_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
 
-/** Passes the struts of a lattice, an open foam or beams that a box selects to a callback: for beam
- * models of finite elements, for 3MF, or for drawing.
+/** Passes the struts of a lattice, a foam with struts or beams that a box selects to a callback:
+ * for beam models of finite elements, for 3MF, or for drawing.
  *
  * Lattices: the struts of the tiled unit cell, each once. Where struts coincide, the greatest
  * factor counts. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the

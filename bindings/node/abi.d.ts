@@ -2065,7 +2065,7 @@ export interface Functions {
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_struts_def_init(def: Partial<msq_struts_def>, size: number | bigint): number;
   /**
-   * Passes the struts of a lattice, an open foam or beams that a box selects to a callback: for beam models of finite elements, for 3MF, or for drawing.
+   * Passes the struts of a lattice, a foam with struts or beams that a box selects to a callback: for beam models of finite elements, for 3MF, or for drawing.
    *
    * Lattices: the struts of the tiled unit cell, each once. Where struts coincide, the greatest factor counts. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first. Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds; its id comes from their names. Which seeds are equally far is decided exactly, at any jitter. Node positions are computed from the seeds in double precision. Where seeds are almost on one sphere, as with a jitter of 1e-9 to 1e-5, two nodes may be so close that the strut between them has equal ends. An id that would need more than 128 bits is a hash, which msq assumes to be unique. Beams: all beams and balls. A ball has equal a and b. Ends at the same coordinates are one node. id[0] is the index of the beam in the definition; balls are numbered after the beams. Foams with struts and walls: the struts. Unions: the struts of all members, one member after the other, with hashes of the members' ids as ids; cell is that of the member. Nodes of two members stay distinct, even where they coincide.
    *
