@@ -188,7 +188,7 @@ class Io(unittest.TestCase):
     def test_panel_of_listed_heights(self):
         heights = [1.25, 1.75, 2.25]
         slicer = msq.io.panel_slicer(self.model, layer_z=heights)
-        self.assertEqual([slicer.layer_z(i) for i in range(len(slicer))], heights)
+        self.assertEqual([slicer.z(i) for i in range(len(slicer))], heights)
         with self.assertRaisesRegex(msq.ArgumentError, "layer_height"):
             msq.io.panel_slicer(self.model)
         uneven = msq.io.panel_slicer(self.model, layer_z=[1, 2, 4])
