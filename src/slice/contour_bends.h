@@ -9,14 +9,8 @@
 
 namespace msq {
 
-/// Curvatures of triples of points are even where those in the middle exceed the others by no more
-/// than this factor.
-inline constexpr double even_curvature = 1.6;
-/// Of the tolerance: arcs that are no higher than that are near enough to their chords.
-inline constexpr double flat_arc = 0.5;
-
 /// Sets bit i of `bits` where the boundary may bend by more than `tolerance` between point i and
-/// the next one, as points i - 2 to i + 3 tell; also where a point that is nearer than `close` to
+/// the next one, as points i - 1 to i + 2 tell; also where a point that is nearer than `close` to
 /// its neighbour tells little about that, and at some pieces near both ends of the points. Writes
 /// the words of `count` bits.
 void find_bends(const double* x, const double* y, size_t count, double tolerance, double close,

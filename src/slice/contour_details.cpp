@@ -16,6 +16,12 @@ namespace {
 constexpr int max_depth = 4;
 /// Rings are looked into together until there are so many.
 constexpr size_t pieces_at_once = 4096;
+/// Curvatures of triples of points are even where those in the middle exceed the others by no more
+/// than this factor.
+constexpr double even_curvature = 1.6;
+/// Of the tolerance: arcs that are no higher than that are probably near enough to their chords, so
+/// their middles are not taken. Corners of regular polygons look like such arcs.
+constexpr double flat_arc = 0.5;
 
 Vec2 unit(Vec2 d) {
   const double size = length(d);
@@ -218,7 +224,7 @@ void ContourDetails::find_suspects(ContourPoints& points) {
 }
 
 /// suspect() for all crossings of a closed ring, except for those that `bends` excludes: most
-/// pieces are short, or nearly straight, or lie on arcs.
+/// pieces are short or nearly straight.
 void ContourDetails::look_along(const ContourRings::Ring& ring, CancelPoll& poll) {
   for (uint32_t id = ring.first; id < ring.end;) {
     poll();
@@ -277,24 +283,21 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   if (const double bend =
           bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)));
       bend != 0) {
-    if (std::abs(bend) <= flat_arc * tolerance_) return;
     piece.arc = piece.middle() - left_of(unit(ab)) * bend;
-    piece.has_arc = std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, piece.arc);
+    piece.has_arc = std::abs(bend) > flat_arc * tolerance_ && std::abs(bend) <= 4 * tolerance_ &&
+                    is_in_cell(id, piece.arc);
   }
   add_piece(piece);
 }
 
-/// Takes the middles of arcs that membership confirms.
+/// Takes the middles of arcs where membership confirms the two lines to them: beside the middle and
+/// the middle of each line.
 void ContourDetails::take_arcs(ContourPoints& points) {
-  constexpr double places[] = {0.25, 0.5, 0.75};
   points.clear();
   for (const Piece& piece : memory_->pieces) {
     if (!piece.has_arc) continue;
     const Vec2 to_inside = left_of(unit(piece.b - piece.a)) * (0.75 * tolerance_);
-    for (const double place : places) {
-      // An arc has so much of its height there.
-      const double height = 4 * place * (1 - place);
-      const Vec2 at = piece.a + (piece.b - piece.a) * place + (piece.arc - piece.middle()) * height;
+    for (const Vec2 at : {(piece.a + piece.arc) * 0.5, piece.arc, (piece.arc + piece.b) * 0.5}) {
       points.add(at + to_inside);
       points.add(at - to_inside);
     }
@@ -305,8 +308,7 @@ void ContourDetails::take_arcs(ContourPoints& points) {
   for (const Piece& piece : memory_->pieces) {
     if (piece.has_arc) {
       bool is_near = true;
-      for (size_t k = 0; k < std::size(places); ++k, n += 2)
-        is_near = is_near && inside[n] && !inside[n + 1];
+      for (size_t k = 0; k < 3; ++k, n += 2) is_near = is_near && inside[n] && !inside[n + 1];
       if (is_near) {
         memory_->details.push_back({piece.id, piece.next, 0.5, piece.arc});
         continue;

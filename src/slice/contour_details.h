@@ -5,11 +5,11 @@
 // Lines through the crossings before and behind a piece meet at a point X. The triangle of X and
 // the piece's crossings holds the boundary where it turns one way, so only pieces whose triangle is
 // higher than the tolerance are looked into. Where the curvature through the crossings around is
-// about even, an arc tells how far the boundary is, and its middle is taken where membership on
-// both sides confirms it. Elsewhere membership beside the middle of the piece and its quarters
-// tells whether it is near enough. If not, X is a corner where membership around X and around the
-// middles of both sides says so. Otherwise the point on the boundary beside the piece's middle is
-// found by bisection, and both halves are looked into likewise.
+// about even, and an arc with it would be far from its chord, the middle of the arc is taken if
+// membership on both sides confirms it. Elsewhere membership beside the middle of the piece and its
+// quarters tells whether it is near enough. If not, X is a corner where membership around X and
+// around the middles of both sides says so. Otherwise the point on the boundary beside the piece's
+// middle is found by bisection, and both halves are looked into likewise.
 //
 // All points found lie within the cell, away from its edges, so pieces of different cells never
 // meet. One exception, at tolerances at which gaps are followed (contour_gaps.h): a corner may lie

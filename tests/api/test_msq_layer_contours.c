@@ -316,10 +316,12 @@ static void memory_of_details_is_counted(void** state) {
   assert_true(peaks[1] > peaks[0] + 64 * (points[1] - points[0]));
 }
 
-/* A prism over a convex polygon of count corners, counter-clockwise. */
+#define MAX_CORNERS 24
+
+/* A prism over a polygon of count corners, counter-clockwise, all of which the first one sees. */
 static msq_model* make_prism(msq_context* context, double (*corners)[2], uint32_t count) {
-  double vertices[16][3];
-  uint32_t triangles[28][3], made = 0;
+  double vertices[2 * MAX_CORNERS][3];
+  uint32_t triangles[4 * MAX_CORNERS - 4][3], made = 0;
   for (uint32_t i = 0; i < 2 * count; ++i) {
     vertices[i][0] = corners[i % count][0];
     vertices[i][1] = corners[i % count][1];
@@ -353,6 +355,42 @@ static double distance_to_segment(const double p[2], const double a[2], const do
   return hypot(from[0] - t * way[0], from[1] - t * way[1]);
 }
 
+/* Corners of a polygon, made so that it turns and moves within a cell at random. */
+static void place_corners(uint64_t* random, double (*corners)[2], uint32_t count) {
+  const double turn = random_between(random, 0, 7);
+  const double middle[2] = {random_between(random, 0, 1), random_between(random, 0, 1)};
+  for (uint32_t k = 0; k < count; ++k) {
+    const double u = corners[k][0], v = corners[k][1];
+    corners[k][0] = middle[0] + u * cos(turn) - v * sin(turn);
+    corners[k][1] = middle[1] + u * sin(turn) + v * cos(turn);
+  }
+}
+
+/* Corners are within the tolerance of the ring, at a pitch of 1, unless places are counted where
+ * they may not be. */
+static void assert_ring_has_corners(msq_context* context, int polygon, double (*corners)[2],
+                                    uint32_t count, double tolerance) {
+  msq_model* model = make_prism(context, corners, count);
+  msq_contours_def def = contours_def(MSQ_FLOAT64, tolerance);
+  def.pitch = 1;
+  msq_contours* contours;
+  assert_ok(msq_layer_contours(model, 0.3, &def, &contours, NULL));
+  const msq_contours_report report = contents_of(contours);
+  assert_int_equal(report.ring_count, 1);
+  const double* points = report.points;
+  for (uint32_t k = 0; k < count && report.unresolved_count == 0; ++k) {
+    double distance = 1e9;
+    for (uint64_t n = 0; n < report.point_count; ++n)
+      distance = fmin(distance, distance_to_segment(corners[k], points + 2 * n,
+                                                    points + 2 * ((n + 1) % report.point_count)));
+    if (distance > 1.02 * tolerance)
+      fail_msg("polygon %d: corner (%g, %g) is %g from the ring; the tolerance is %g", polygon,
+               corners[k][0], corners[k][1], distance, tolerance);
+  }
+  msq_contours_release(contours);
+  msq_model_release(model);
+}
+
 /* Corners of polygons, which may be two or three crossings apart, are within the tolerance. */
 static void corners_are_points_of_rings(void** state) {
   (void)state;
@@ -361,40 +399,41 @@ static void corners_are_points_of_rings(void** state) {
   uint64_t random = 1;
   for (int i = 0; i < 1500; ++i) {
     const uint32_t count = 4 + (uint32_t)(i % 4);
-    const double size = random_between(&random, 2, 8), turn = random_between(&random, 0, 7);
+    const double size = random_between(&random, 2, 8);
     const double flat = random_between(&random, 0.5, 1), tolerance = tolerances[i % 6];
-    const double middle[2] = {random_between(&random, 0, 1), random_between(&random, 0, 1)};
-    double corners[8][2], least = 1e9;
+    double corners[MAX_CORNERS][2], least = 1e9;
     for (uint32_t k = 0; k < count; ++k) {
       const double angle = (k + random_between(&random, 0, 0.6)) * 2 * acos(-1) / count;
-      const double u = size * cos(angle), v = size * flat * sin(angle);
-      corners[k][0] = middle[0] + u * cos(turn) - v * sin(turn);
-      corners[k][1] = middle[1] + u * sin(turn) + v * cos(turn);
+      corners[k][0] = size * cos(angle);
+      corners[k][1] = size * flat * sin(angle);
     }
+    place_corners(&random, corners, count);
     for (uint32_t k = 0; k < count; ++k) {
       const double* next = corners[(k + 1) % count];
       least = fmin(least, hypot(next[0] - corners[k][0], next[1] - corners[k][1]));
     }
-    if (least < 1.5) continue;
-    msq_model* model = make_prism(context, corners, count);
-    msq_contours_def def = contours_def(MSQ_FLOAT64, tolerance);
-    def.pitch = 1;
-    msq_contours* contours;
-    assert_ok(msq_layer_contours(model, 0.3, &def, &contours, NULL));
-    const msq_contours_report report = contents_of(contours);
-    assert_int_equal(report.ring_count, 1);
-    const double* points = report.points;
-    for (uint32_t k = 0; k < count && report.unresolved_count == 0; ++k) {
-      double distance = 1e9;
-      for (uint64_t n = 0; n < report.point_count; ++n)
-        distance = fmin(distance, distance_to_segment(corners[k], points + 2 * n,
-                                                      points + 2 * ((n + 1) % report.point_count)));
-      if (distance > 1.02 * tolerance)
-        fail_msg("polygon %d: corner (%g, %g) is %g from the ring; the tolerance is %g", i,
-                 corners[k][0], corners[k][1], distance, tolerance);
+    if (least >= 1.5) assert_ring_has_corners(context, i, corners, count, tolerance);
+  }
+  msq_context_release(context);
+}
+
+/* Crossings of a regular polygon with many corners are as on a circle. */
+static void corners_of_regular_polygons_are_points_of_rings(void** state) {
+  (void)state;
+  msq_context* context = make_context();
+  uint64_t random = 2;
+  for (int i = 0; i < 1500; ++i) {
+    const uint32_t count = 8 + (uint32_t)(i % 17);
+    const double size = random_between(&random, 1.45, 1.9) * count / (2 * acos(-1));
+    const double tolerance = random_between(&random, 0.015, 0.1);
+    double corners[MAX_CORNERS][2];
+    for (uint32_t k = 0; k < count; ++k) {
+      const double angle = k * 2 * acos(-1) / count;
+      corners[k][0] = size * cos(angle);
+      corners[k][1] = size * sin(angle);
     }
-    msq_contours_release(contours);
-    msq_model_release(model);
+    place_corners(&random, corners, count);
+    assert_ring_has_corners(context, i, corners, count, tolerance);
   }
   msq_context_release(context);
 }
@@ -445,6 +484,7 @@ int main(void) {
       cmocka_unit_test(memory_of_planes_is_counted),
       cmocka_unit_test(memory_of_details_is_counted),
       cmocka_unit_test(corners_are_points_of_rings),
+      cmocka_unit_test(corners_of_regular_polygons_are_points_of_rings),
       cmocka_unit_test(tolerances_below_the_spacing_of_numbers_end),
       cmocka_unit_test(release_of_null_does_nothing),
   };
