@@ -264,8 +264,9 @@ class Caster {
     const double end_above = std::max(end(i, level), from);
     const double tolerance = tolerance_of(i, level - 1);
     // The point of an entry may lie outside by rounding, and its stay then ends where it begins.
+    // The entry may be that of a level further above, if those between have left, too.
     const bool stays_at_entry =
-        hits_[i].scale == static_cast<int32_t>(level) - 1 && end_above <= from + tolerance;
+        hits_[i].scale < static_cast<int32_t>(level) && end_above <= from + tolerance;
     from =
         end_above + steps_of(i, level).behind(end_above, tolerance, slow_of(level - 1, tolerance));
     if (!stays_at_entry) {

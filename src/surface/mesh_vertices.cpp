@@ -251,9 +251,17 @@ void MeshVertices::place_by_membership(const std::vector<uint64_t>& left, const 
     places_[moved[n]] = on_faces(seed, clamped(ways[n].middle(), cell));
   }
   take_normals(moved, ways, job);
-  for (const uint64_t vertex : moved)
-    if (const Seed& seed = seeds_[vertex]; seed.faces)
-      normals_[vertex] = face_normal(seed, normals_[vertex]);
+  for (size_t n = 0; n < moved.size(); ++n) {
+    Vec3& normal = normals_[moved[n]];
+    Seed seed = seeds_[moved[n]];
+    // A way may begin on a face of the box, inside the model. It then leads through the face.
+    const Vec3 inwards = ways[n].inside - ways[n].outside;
+    const double size = length(inwards);
+    if (seed.faces)
+      normal = face_normal(seed, normal);
+    else if (size > 0 && comes_from_face({ways[n].outside, inwards * (1 / size)}, seed))
+      normal = face_normal(seed, inwards * -1.0);
+  }
 }
 
 /// The normals where short ways cross the boundary. A vertex may have moved to another side of a

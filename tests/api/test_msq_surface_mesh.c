@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "documents.h"
 #include "images.h"
 #include "samples.h"
 #include "surfaces.h"
@@ -243,25 +244,50 @@ static int side_of(const msq_model* model, const double* p, const float* n, doub
   return inside == count ? 1 : inside == 0 ? 0 : -1;
 }
 
-/* Where walls are about as thin as the pitch, vertices move from one side to the other. */
-static void normals_of_thin_walls_look_outwards(void** state) {
-  (void)state;
-  msq_context* context = make_context();
-  msq_model* model = make_model(context, make_box(context), make_gyroid(context), NULL);
-  const msq_surface_def def = surface_def(0.4);
+static void check_sides(const msq_model* model, double pitch, double radius) {
+  const msq_surface_def def = surface_def(pitch);
   surface all = surface_of(model, &def);
   uint64_t smooth = 0;
   for (uint64_t v = 0; v < all.vertex_count; ++v) {
     const float* n = all.normals + 3 * v;
     const float back[3] = {-n[0], -n[1], -n[2]};
     const double* p = all.vertices + 3 * v;
-    const int ahead = side_of(model, p, n, 2e-3), behind = side_of(model, p, back, 2e-3);
+    const int ahead = side_of(model, p, n, radius), behind = side_of(model, p, back, radius);
     if (ahead == 1 && behind == 0) fail_msg("normal of (%g, %g, %g) is turned", p[0], p[1], p[2]);
     smooth += ahead == 0 && behind == 1;
   }
   assert_true(smooth > all.vertex_count / 3);
   free_surface(&all);
+}
+
+/* Where walls are about as thin as the pitch, vertices move from one side to the other. */
+static void normals_of_thin_walls_look_outwards(void** state) {
+  (void)state;
+  msq_context* context = make_context();
+  msq_model* model = make_model(context, make_box(context), make_gyroid(context), NULL);
+  check_sides(model, 0.4, 2e-3);
   msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* There, ways to the boundary begin on a face of the box, inside the model. */
+static void normals_beside_the_faces_of_a_box_look_outwards(void** state) {
+  static const char* const structures[] = {
+      "{\"functional\": {\"kind\": \"sheet\", \"thickness\": 0.1}}",
+      "{\"plate_lattice\": {\"thickness\": 0.08, \"radius\": 0.1}}",
+      "{\"foam\": {\"radius\": 0.1, \"wall_thickness\": 0.06}}"};
+  msq_context* context = make_context();
+  (void)state;
+  for (int i = 0; i < 3; ++i) {
+    char text[512];
+    snprintf(text, sizeof text,
+             "{\"msq_model\": 1, \"scales\": [{\"shape\": {\"box\": {\"min\": [0, 0, 0], \"max\": "
+             "[3.03, 3.07, 3.11]}}}, {\"structure\": %s}]}",
+             structures[i]);
+    msq_model* model = model_of(read_document(context, text));
+    check_sides(model, 0.12, 5e-4);
+    msq_model_release(model);
+  }
   msq_context_release(context);
 }
 
@@ -381,6 +407,7 @@ int main(void) {
       cmocka_unit_test(normals_are_those_of_the_surface),
       cmocka_unit_test(normals_of_thin_walls_have_length_1),
       cmocka_unit_test(normals_of_thin_walls_look_outwards),
+      cmocka_unit_test(normals_beside_the_faces_of_a_box_look_outwards),
       cmocka_unit_test(lattices),
       cmocka_unit_test(foams),
       cmocka_unit_test(functions),

@@ -61,16 +61,17 @@ class Settings(Case):
         self.assertAlmostEqual(self.area_of_first_layer(path), 1e-4, delta=1e-8)
 
     def test_a_panel_in_a_frame(self):
-        for origin in ([0, 0, 0], [100, -7, 3]):
+        turned = {"axes": [0, 1, 0, 0, 0, 1, 1, 0, 0]}
+        for origin, axes, layers in (([0, 0, 0], turned, 40), ([100, -7, 3], turned, 40),
+                                     ([100, -7, 3], {}, 8)):
             model = self.write([0, 0, 0], [20, 6, 4], slicing={
-                "layer_height": 0.5, "pitch": 0.5,
-                "frame": {"origin": origin, "axes": [0, 1, 0, 0, 0, 1, 1, 0, 0]}})
+                "layer_height": 0.5, "pitch": 0.5, "frame": {"origin": origin, **axes}})
             path = self.folder / "part.sl1"
             self.msq("slice", model, "-o", path, "--panel", "100,80", "--panel-size", "50,40")
             with zipfile.ZipFile(path) as archive:
                 config = archive.read("config.ini").decode()
                 images = [name for name in archive.namelist() if re.fullmatch(r"[^/]*\d+\.png", name)]
-            self.assertEqual(len(images), 40)
+            self.assertEqual(len(images), layers)
             self.assertAlmostEqual(float(re.search("usedMaterial = (.*)", config)[1]), 0.48, places=6)
 
     def test_a_view_stays_where_options_leave_it(self):

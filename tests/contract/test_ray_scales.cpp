@@ -19,13 +19,15 @@ namespace {
 struct Row {
   std::string name;
   Ref<const Structure> coarse, fine;
+  bool is_fine_twice = false;  // the same structure on a third scale
 };
 
 void test_row(void** state) {
   const Row& row = *static_cast<const Row*>(*state);
-  const Ref<const Model> model =
-      make_ref<Model>(shared_context(), make_ref<SphereShape>(Vec3{0.5, 0.5, 0.5}, 0.7),
-                      std::vector<Ref<const Structure>>{row.coarse, row.fine});
+  std::vector<Ref<const Structure>> structures{row.coarse, row.fine};
+  if (row.is_fine_twice) structures.push_back(row.fine);
+  const Ref<const Model> model = make_ref<Model>(
+      shared_context(), make_ref<SphereShape>(Vec3{0.5, 0.5, 0.5}, 0.7), structures);
   const Scales resolved = model->resolved(0);
   Random random(3);
   const size_t count = test_count(150);
@@ -47,7 +49,7 @@ void test_row(void** state) {
       nullptr);
   const double part = std::max(model->shape().ray_tolerance(),
                                std::max(row.coarse->min_ray_step(), row.fine->min_ray_step()));
-  size_t by_scale[3] = {};
+  size_t by_scale[4] = {};
   for (size_t i = 0; i < count; ++i) {
     const Ray& ray = rays[i].ray;
     const auto inside = [&](double t) { return model->inside(ray.at(t), resolved); };
@@ -78,7 +80,7 @@ void test_row(void** state) {
   }
   if (count < 100) return;  // too few to say how many hit which
   assert_true(by_scale[1] > count / 20);
-  assert_true(by_scale[2] > count / 5);
+  assert_true(by_scale[2] + by_scale[3] > count / 5);
 }
 
 }  // namespace
@@ -103,6 +105,8 @@ int main() {
       {"mixed struts in a host's function",
        make_host_gyroid(coarse, Parameter(0.3), false, false, 3.5),
        mixed_factory()(fine, Parameter(0.02))},
+      {"a sheet twice in a foam", foam_factory(FoamMethod::method_1, 1)(coarse, Parameter(0.08)),
+       sheet(fine, Parameter(0.6)), true},
   };
   return run_for_each("ray_scales", rows, test_row);
 }

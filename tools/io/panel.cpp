@@ -37,12 +37,16 @@ namespace {
 void find_bounds(const msq_model& model, const msq_slicer_def& plan, double (&min)[3],
                  double (&max)[3]) {
   check_msq(msq_model_bounds(&model, min, max));
+  for (int axis = 0; axis < 3; ++axis) {
+    min[axis] -= plan.frame_origin[axis];
+    max[axis] -= plan.frame_origin[axis];
+  }
   const double* const axes = plan.frame_axes;
   if (std::all_of(axes, axes + 9, [](double number) { return number == 0; })) return;
   double middle[3], half[3];
   for (int axis = 0; axis < 3; ++axis) {
     half[axis] = (max[axis] - min[axis]) / 2;
-    middle[axis] = min[axis] + half[axis] - plan.frame_origin[axis];
+    middle[axis] = min[axis] + half[axis];
   }
   for (int row = 0; row < 3; ++row) {
     double at = 0, reach = 0;
