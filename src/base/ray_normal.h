@@ -36,10 +36,25 @@ struct PointsAllAround {
   std::vector<uint8_t> inside;
 };
 
+/// The unit vector along the sum of the directions that lead out; back along the ray if they give
+/// none. A ray that enters comes from outside. If it grazes, the error of the sum may turn it along
+/// the ray, and it is turned back across.
+inline Vec3 against(Vec3 along, Vec3 sum) {
+  const double size = length(sum);
+  if (!(size > 0.5)) return along * -1.0;
+  const Vec3 normal = sum * (1 / size);
+  const double lean = dot(normal, along);
+  if (lean < 0) return normal;
+  constexpr double max_error = 0.25, across = 0x1p-10;
+  if (lean > max_error) return along * -1.0;
+  const Vec3 turned = normal - along * (lean + across);
+  return turned * (1 / length(turned));
+}
+
 /// Computes a normal for each search: the mean direction of the points outside, among points all
-/// around at `distance` from the ray's point at t. If they give no direction, the normal points
-/// back along the ray. Searches for which wanted(search) is false are left unchanged. keep(points,
-/// inside, count) sets inside[i], which is 1, to 0 if point i is outside.
+/// around at `distance` from the ray's point at t. If they give no direction, or one along the ray,
+/// the normal points back along the ray. Searches for which wanted(search) is false are left
+/// unchanged. keep(points, inside, count) sets inside[i], which is 1, to 0 if point i is outside.
 template <class Keep, class Wanted>
 void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, double distance,
                            Wanted&& wanted) {
@@ -68,10 +83,7 @@ void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, doubl
       for (size_t k = 0; k < around; ++k)
         if (!inside[n * around + k]) sum = sum + directions[k];
       const Vec3 along = queried[n]->ray.direction;
-      const double length_of_sum = length(sum);
-      // Against the ray's direction, because the ray enters.
-      queried[n]->normal =
-          length_of_sum > 0.5 && dot(sum, along) < 0 ? sum * (1 / length_of_sum) : along * -1.0;
+      queried[n]->normal = against(along, sum);
     }
     size = 0;
   }

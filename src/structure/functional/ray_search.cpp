@@ -412,13 +412,53 @@ void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane)
   }
 }
 
+Vec3 FunctionalRays::border_normal(const Ray& ray, double t) const {
+  if (solid_.repeats() == std::array<bool, 3>{true, true, true}) return {};
+  const double room = 2 * solid_.ray_tolerance(ray, t);
+  const Vec3 before = ray.at(t - room), behind = ray.at(t + room);
+  const Vec3 change = solid_.angles().fraction(behind) - solid_.angles().fraction(before);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (solid_.repeats()[static_cast<size_t>(axis)] || std::abs(change[axis]) < 0.5) continue;
+    if (solid_.inside(before) || !solid_.inside(behind)) return {};
+    Vec3 along;
+    along[axis] = 1;
+    const Vec3 normal = unit_along(solid_.angles().gradient(ray.at(t), along));
+    return dot(normal, ray.direction) > 0 ? normal * -1.0 : normal;
+  }
+  return {};
+}
+
+/// By a slope, the surface of a function without jumps is near the hit, within `way`, and the
+/// normal leads out. The mean of the points outside is less accurate, and gives nothing at walls
+/// that are thinner than the distance of these points.
+Vec3 FunctionalRays::checked_normal(const RaySearch& search, Vec3 by_slope,
+                                    double steepness) const {
+  const auto inside = [this](Vec3 p) { return solid_.inside(p); };
+  const double way = solid_.normal_distance();
+  const Vec3 p = search.ray.at(search.t);
+  const auto leads_out = [&](Vec3 normal) {
+    return !inside(p + normal * way) && inside(p - normal * way);
+  };
+  const bool is_into = dot(by_slope, search.ray.direction) > 0x1p-20;
+  bool is_far = false;
+  if (!is_into) {
+    if (solid_.has_steady_distance()) return by_slope;
+    is_far = !(std::abs(solid_.onset(p) - level_.at(p)) <= 0x1p-4 * way * steepness);
+    if (!is_far && leads_out(by_slope)) return by_slope;
+  }
+  const Vec3 around = normal_by_membership(inside, search.ray, search.t, way);
+  return is_into || is_far || leads_out(around) ? around : by_slope;
+}
+
 void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
   const bool has_slopes = solid_.ray_program().has_slopes();
   for (size_t next = 0; next < count;) {
     size_t size = 0;
     for (; next < count && size < lanes; ++next) {
-      const RaySearch& search = searches[next];
+      RaySearch& search = searches[next];
       if (!search.found || dot(search.normal, search.normal) > 0) continue;
+      search.normal = border_normal(search.ray, search.t);
+      if (dot(search.normal, search.normal) > 0) continue;
       live_[size].search = static_cast<uint32_t>(next);
       live_[size].t = search.t;
       ++size;
@@ -438,11 +478,8 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
                         level_.gradient(points_[i], 0x1p-16 * cell_);
       const double steepness = length(away);
       RaySearch& search = searches[live_[i].search];
-      search.normal = steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
-      // Where the function jumps or has no value, its slope may point into the solid.
-      if (dot(search.normal, search.ray.direction) > 0x1p-20)
-        search.normal = normal_by_membership([this](Vec3 p) { return solid_.inside(p); },
-                                             search.ray, search.t, solid_.normal_distance());
+      const Vec3 by_slope = steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
+      search.normal = checked_normal(search, by_slope, steepness);
     }
   }
 }

@@ -73,6 +73,12 @@ class FunctionalRays {
   void grade(const RaySearch& search, Live& live, size_t lane);
   void bend(const RaySearch& search, Live& live, size_t lane);
   void follow(const RaySearch& search, Live& live, size_t lane);
+  /// The normal of a border of the cell at which the ray enters, in [t - 2 tolerances, t + 2
+  /// tolerances]; 0 if there is none.
+  Vec3 border_normal(const Ray& ray, double t) const;
+  /// The normal by the slope; where the function may jump, or has no value beyond, and the slope is
+  /// not that of the boundary, an estimate by points all around.
+  Vec3 checked_normal(const RaySearch& search, Vec3 by_slope, double steepness) const;
   /// The gradients by angles, from bounds; the middle where a kink leaves an interval.
   void bound_gradients(const RaySearch* searches, size_t count, Vec3* gradients);
   /// Sets points_, levels_ and the coordinates of pieces_ for the lanes below `count`.
