@@ -3266,10 +3266,10 @@ MSQ_API msq_status msq_fill_info(const msq_fill* fill, msq_fill_report* report);
  * Multiply weight and vent_radius of a foam by the same factor. job NULL: no job.
  *
  * Single layers differ from the average, those of a gyroid by a tenth. msq measures the lines of
- * the structure as it is defined. It measures one cell at 64 heights, or 8 x 8 cells at 61 heights
- * if the grid is rotated, accurate to about 0.3 %. It measures 32 x 32 cells of foams and waves at
- * 32 heights, accurate to about 0.5 %. Calibrate a foam without its field of density: d seeds per
- * cell volume multiply the density of lines by about the cube root of d.
+ * the structure as it is defined: one cell at 64 heights, or 8 x 8 cells at 61 or 64 heights if the
+ * grid is rotated, or 32 x 32 cells of foams and waves at 32 heights. It is accurate to about
+ * 0.5 %. Calibrate a foam without its field of density: d seeds per cell volume multiply the
+ * density of lines by about the cube root of d.
  *
  * Cost: up to 0.5 s for a foam, 0.8 s and 0.017 s per wave for waves. Errors: ARGUMENT, UNSUPPORTED
  * (a structure without thin walls; a structure whose lines are denser in some places, by a period,

@@ -31,8 +31,8 @@ double length_within(Vec2 a, Vec2 b, const Box2& box) {
 }
 
 /// The weight of a place within the sample, 0 to 1 from its begin to its end: smooth, 0 at the ends
-/// and 1 on average (Hann's window, squared). Waves of four and more periods in the sample have a
-/// mean of less than 1 % of their height, wherever they begin.
+/// and 1 on average (Hann's window, squared). The integral of a wave of four and more periods in
+/// the sample is less than 1 % of its height, wherever it begins.
 double weight_at(double place) {
   const double s = std::sin(std::numbers::pi * place);
   return place > 0 && place < 1 ? 8.0 / 3 * s * s * s * s : 0;
@@ -65,9 +65,12 @@ double mean_line_density(const Structure& structure) {
   const std::array<int, 3> axes = grid.sample_axes();
   const bool is_turned = axes[0] < 0, repeats = structure.is_periodic() && !is_turned;
   // Where cells repeat in other directions than along the axes, a box with hard sides would hold
-  // one wall more or fewer.
+  // one wall more or fewer. Even heights through 8 cells of one size, of which 61 is no multiple,
+  // are weighted likewise.
   const bool is_weighted = structure.is_periodic() && is_turned;
-  const int heights = is_weighted ? 61 : structure.is_periodic() ? 64 : 32;
+  const bool has_one_size = max_component(grid.cell_size) <= 1.001 * min_component(grid.cell_size);
+  const bool is_even = is_weighted && has_one_size;
+  const int heights = is_even ? 61 : structure.is_periodic() ? 64 : 32;
   Vec3 size = grid.cell_size;  // of the sample, in the model's frame
   if (is_turned)
     size = Vec3{1, 1, 1} * max_component(size);
@@ -81,13 +84,12 @@ double mean_line_density(const Structure& structure) {
   double sum = 0, weights = 0;
   for (int i = 0; i < heights; ++i) {
     check_cancelled();
-    // Even heights through one period, or through 8, of which 61 is no multiple. Through many at
-    // places within the cells that are all different, by the golden section (Weyl), so that none is
-    // favoured.
+    // Otherwise even heights through one period. Through many periods at places within the cells
+    // that are all different, by the golden section (Weyl), so that none is favoured.
     const double turn = 0.6180339887498949 * (i + 1);
-    const double part = is_weighted || repeats ? 0.381966 : turn - std::floor(turn);
+    const double part = is_even || repeats ? 0.381966 : turn - std::floor(turn);
     const double place = (i + part) / heights;
-    const double z = low.z + place * size.z, weight = is_weighted ? weight_at(place) : 1;
+    const double z = low.z + place * size.z, weight = is_even ? weight_at(place) : 1;
     const LineGraph graph = structure.wall_lines({z, box, 1e-3 * min_component(grid.cell_size)});
     for (const auto& [a, b] : graph.lines) {
       const Vec2 from = graph.points[a], to = graph.points[b];

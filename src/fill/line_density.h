@@ -7,9 +7,10 @@
 namespace msq {
 
 /// Of a structure whose walls are uniform, in 1 / model unit. Where it repeats along the axes, from
-/// 64 heights of one cell, otherwise from 32 x 32 cells at 32 heights, or 8 x 8 at 61 where it is
-/// periodic and turned; the middle ones of these count more. Throws Error(unsupported) where there are no thin walls or they are not
-/// uniform, Error(limit) where no line is found.
+/// 64 heights of one cell. Where it is periodic and turned, from 8 x 8 cells, those in the middle
+/// counting more, at 61 or 64 heights. Otherwise from 32 x 32 cells at 32 heights. Throws
+/// Error(unsupported) where there are no thin walls or they are not uniform, Error(limit) where no
+/// line is found.
 double mean_line_density(const Structure& structure);
 
 }  // namespace msq

@@ -204,6 +204,44 @@ static void turned_cells_have_the_same_size(void** state) {
   msq_context_release(context);
 }
 
+/* Planes of cubic plates whose normals are at an angle t to z have lines of length sin(t) /
+ * distance per area, on average over all heights. */
+static void planes_have_the_lines_of_the_formula(void** state) {
+  static const struct {
+    double cell[3], angle;
+    int axis;
+  } rows[] = {{{1, 1, 1}, 0.004, 0},
+              {{1, 1, 1}, 0.3, 2},
+              {{1, 1, 1}, 0.7, 1},
+              {{1, 1, 8.0 / 61}, 0.0121, 0},
+              {{1, 1, 16.0 / 61}, 0.0121, 1},
+              {{1, 2, 5}, 0.3, 2},
+              {{3, 1, 1.7}, 0.9, 0},
+              {{1, 1, 0.3}, 0.05, 1}};
+  msq_context* context = make_context();
+  (void)state;
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+    double cell[3], lines = 0;
+    msq_plate_lattice_def def;
+    msq_structure* made;
+    assert_ok(msq_plate_lattice_def_init(&def, sizeof def));
+    def.thickness.value = 0.05;
+    memcpy(def.grid.cell_size, rows[i].cell, sizeof cell);
+    turn(def.grid.rotation, rows[i].axis, rows[i].angle);
+    def.grid.origin[2] = 0.35;
+    assert_ok(msq_structure_plate_lattice(context, &def, &made));
+    assert_ok(msq_fill_calibrate(context, made, 0.2, 0.15, cell, NULL));
+    msq_structure_release(made);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double up = def.grid.rotation[6 + axis];
+      lines += sqrt(fmax(0, 1 - up * up)) / rows[i].cell[axis];
+    }
+    const double error = cell[0] / (rows[i].cell[0] * lines * 0.2 / 0.15) - 1;
+    if (fabs(error) > 6e-3) fail_msg("row %zu: %+.2f %%", i, 100 * error);
+  }
+  msq_context_release(context);
+}
+
 /* Only their calibration is refused. */
 static void graded_foams_have_lines(void** state) {
   const double from[3] = {0, 0, 0}, to[3] = {4, 0, 0};
@@ -230,6 +268,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stacks_have_the_density),
       cmocka_unit_test(turned_cells_have_the_same_size),
+      cmocka_unit_test(planes_have_the_lines_of_the_formula),
       cmocka_unit_test(graded_foams_have_lines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
