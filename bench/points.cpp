@@ -13,6 +13,7 @@
 #include "setup.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/sets/point_set.h"
+#include "varied_structures.h"
 
 namespace {
 
@@ -172,6 +173,35 @@ void bench_parts(bench::Report& report, const std::vector<double>& coordinates) 
   release(foam);
 }
 
+/// A foam around an axis of which a point asks two parts, beside the parts alone.
+void bench_two_parts(bench::Report& report, const std::vector<double>& coordinates) {
+  const size_t count = std::min<size_t>(coordinates.size() / 3, 20000);
+  constexpr int cells = 8;
+  const auto seconds = [&](double radius, double wall_thickness) {
+    msq_context* const context = bench::make_context();
+    const msq_warp_def warp = bench::around_axis(cells);
+    msq_structure* const structure = bench::changed_foam(context, cells, [&](msq_foam_def& def) {
+      def.radius.value = radius / cells;
+      def.wall_thickness.value = wall_thickness / cells;
+      def.warp = &warp;
+    });
+    msq_model* const model = bench::make_model(context, bench::make_cube(context), structure);
+    const auto ask = [&] {
+      int32_t answer;
+      for (size_t i = 0; i < count; ++i)
+        bench::check(msq_point_membership(model, &coordinates[3 * i], nullptr, &answer));
+    };
+    ask();
+    const double taken = bench::processor_seconds_of(ask) / static_cast<double>(count);
+    release({context, model});
+    return taken;
+  };
+  const double struts = seconds(0.1, 0), walls = seconds(0, 0.1), both = seconds(0.1, 0.1);
+  report.note("foam around an axis, msq_point_membership: struts", struts * 1e9, "ns / point");
+  report.note("  walls", walls * 1e9, "ns / point");
+  report.mark("  struts and walls, against the sum", both / (struts + walls), "", 1.5, false);
+}
+
 /// As many points as in the array, some in each of the foam's cells.
 void bench_stratified(bench::Report& report, int cells, size_t count) {
   const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
@@ -279,6 +309,7 @@ int main(int count, char** arguments) try {
     const std::vector<double> coordinates = random_points(millions * 1000000);
     for (int cells : {32, 128}) bench_array(report, cells, coordinates);
     bench_parts(report, coordinates);
+    bench_two_parts(report, coordinates);
     for (int cells : {32, 128}) bench_stratified(report, cells, coordinates.size() / 3);
   }
   // From 2 to 6.4 samples a cell along each axis.

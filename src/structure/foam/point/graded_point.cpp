@@ -89,11 +89,10 @@ LeafSeed nearest_seed(SeedTrees& trees, CellIndex cell, Vec3 q, double& distance
 bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,
                          double radius) {
   // The density field may be the host's.
-  const Borrowed<SeedTrees> borrowed_trees;
+  const Borrowed<SeedForest> forest;
   const Borrowed<NearSeeds> borrowed_near;
-  SeedTrees& trees = *borrowed_trees;
+  SeedTrees& trees = forest->of(seeds);
   NearSeeds& near = *borrowed_near;
-  trees.move_to(seeds);
   double nearest_squared;
   const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
 
@@ -113,12 +112,11 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
 void find_graded_edges_near(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,
                             double radius, std::vector<NearGradedEdge>& struts) {
   // The density field may be the host's.
-  const Borrowed<SeedTrees> borrowed_trees;
+  const Borrowed<SeedForest> forest;
   const Borrowed<NearSeeds> borrowed_near;
-  SeedTrees& trees = *borrowed_trees;
+  SeedTrees& trees = forest->of(seeds);
   NearSeeds& near = *borrowed_near;
   struts.clear();
-  trees.move_to(seeds);
   double nearest_squared;
   const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
   gather(trees, cell, q, nearest, nearest_squared, radius, true, near);
@@ -157,11 +155,10 @@ void find_graded_edges_near(const std::shared_ptr<const GradedSeeds>& seeds, Cel
 
 double graded_onset(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q) {
   // The density field may be the host's.
-  const Borrowed<SeedTrees> borrowed_trees;
+  const Borrowed<SeedForest> forest;
   const Borrowed<NearSeeds> borrowed_near;
-  SeedTrees& trees = *borrowed_trees;
+  SeedTrees& trees = forest->of(seeds);
   NearSeeds& near = *borrowed_near;
-  trees.move_to(seeds);
   double nearest_squared;
   const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
   const double unit = 1 << nearest.level;

@@ -83,10 +83,10 @@ void Search::visit_tree(CellIndex cell) {
     const double room = std::abs(m[6]) * half.x + std::abs(m[7]) * half.y + std::abs(m[8]) * half.z;
     return std::abs(z - z_) <= (near + room) * (1 + 1e-9);
   };
-  const Borrowed<SeedTrees> trees;
-  trees->move_to(foam_.graded);
+  const Borrowed<SeedForest> forest;
+  SeedTrees& trees = forest->of(foam_.graded);
   const Vec3 middle = scale * 0.5;
-  trees->visit(cell, Box3{middle, middle}, wanted, [&](const LeafSeed& leaf) {
+  trees.visit(cell, Box3{middle, middle}, wanted, [&](const LeafSeed& leaf) {
     add(cell, {leaf.position.x / scale.x, leaf.position.y / scale.y, leaf.position.z / scale.z}, 0);
   });
 }

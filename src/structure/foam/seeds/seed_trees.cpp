@@ -6,9 +6,7 @@
 namespace msq {
 
 void SeedTrees::move_to(const std::shared_ptr<const GradedSeeds>& seeds) {
-  // A control block is not reused while owner_ refers to it; the address of the seeds may be.
-  const bool is_same = !owner_.owner_before(seeds) && !seeds.owner_before(owner_);
-  if (is_same && nodes_.size() < max_nodes) return;
+  if (has(seeds) && nodes_.size() < max_nodes) return;
   owner_.reset();  // until everything is set
   // Nodes 0 and 1 are not used: they would look like the marks of Node::children.
   nodes_.assign(2, {});
@@ -121,6 +119,28 @@ LeafSeed SeedTrees::at(CellIndex home, Vec3 q) {
     index = children + octant;
     node = node.child(octant);
   }
+}
+
+SeedTrees& SeedForest::of(const std::shared_ptr<const GradedSeeds>& seeds) {
+  size_t n = 0;
+  for (size_t i = 0; i < foams; ++i) {
+    if (trees_[i].has(seeds)) {
+      n = i;
+      break;
+    }
+    if (last_used_[i] < last_used_[n]) n = i;
+  }
+  if (!trees_[n].has(seeds) && bytes() > max_bytes)
+    for (SeedTrees& trees : trees_) trees = {};
+  last_used_[n] = ++uses_;
+  trees_[n].move_to(seeds);
+  return trees_[n];
+}
+
+size_t SeedForest::bytes() const {
+  size_t sum = 0;
+  for (const SeedTrees& trees : trees_) sum += trees.bytes();
+  return sum;
 }
 
 }  // namespace msq

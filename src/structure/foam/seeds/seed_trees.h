@@ -37,6 +37,11 @@ class SeedTrees {
   /// Moves to the seeds of a foam. Free if these are the current ones, except that too large a
   /// store is emptied.
   void move_to(const std::shared_ptr<const GradedSeeds>& seeds);
+  /// Whether the seeds are the current ones.
+  bool has(const std::shared_ptr<const GradedSeeds>& seeds) const {
+    // A control block is not reused while owner_ refers to it; the address of the seeds may be.
+    return !owner_.owner_before(seeds) && !seeds.owner_before(owner_);
+  }
 
   /// Calls found(seed) for the leaf seeds in cells that meet a box, in the order of seeds. May skip
   /// boxes for which wanted(box) is false. Foam units from the corner of `home`.
@@ -140,6 +145,24 @@ class SeedTrees {
   int twig_level_ = 0;              // nodes of this level are twigs, and leaves above it
   std::vector<Leaf> leaves_;
   std::vector<Range> twigs_;
+};
+
+/// The trees of the foams that were searched last, for point queries: the parts of a structure, and
+/// the scales of a model, are asked in turn.
+class SeedForest {
+ public:
+  /// Those of a foam. Valid until the next call.
+  SeedTrees& of(const std::shared_ptr<const GradedSeeds>& seeds);
+
+  size_t bytes() const;
+
+ private:
+  static constexpr size_t foams = 4;
+  /// If all trees take more, the others are given up, so that the memory is kept (Borrowed).
+  static constexpr size_t max_bytes = size_t{12} << 20;
+  SeedTrees trees_[foams];
+  uint64_t last_used_[foams] = {};
+  uint64_t uses_ = 0;
 };
 
 /// Squared distances from q to the nearest and the farthest point of a box.

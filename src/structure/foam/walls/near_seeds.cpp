@@ -22,9 +22,8 @@ struct NearSeedsWorkspace {
 
 void find_graded(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,
                  double more, std::vector<Vec3>& near) {
-  const Borrowed<SeedTrees> borrowed;  // the density may be the host's
-  SeedTrees& trees = *borrowed;
-  trees.move_to(seeds);
+  const Borrowed<SeedForest> forest;  // the density may be the host's
+  SeedTrees& trees = forest->of(seeds);
   LeafSeed nearest = trees.at(cell, q);
   const Vec3 d = nearest.position - q;
   double squared = dot(d, d);
@@ -64,9 +63,8 @@ void NearSeeds::find(CellIndex cell, Vec3 q, double more, std::vector<LiftedSeed
 
 double NearSeeds::spacing(CellIndex cell, Vec3 q) const {
   if (!graded_) return 1;
-  const Borrowed<SeedTrees> trees;
-  trees->move_to(graded_);
-  return std::ldexp(1.0, -trees->at(cell, q).level);
+  const Borrowed<SeedForest> forest;
+  return std::ldexp(1.0, -forest->of(graded_).at(cell, q).level);
 }
 
 }  // namespace msq

@@ -97,8 +97,8 @@ WallFace find_face(const NearSeeds& seeds, CellIndex cell, Vec3 a, Vec3 b, FaceW
 /// the balls about its corners that a is on.
 WallFace find_graded_face(const NearSeeds& seeds, CellIndex cell, Vec3 a, Vec3 b,
                           FacePolygon& polygon) {
-  const Borrowed<SeedTrees> trees;  // the density may be the host's
-  trees->move_to(seeds.graded());
+  const Borrowed<SeedForest> forest;  // the density may be the host's
+  SeedTrees& trees = forest->of(seeds.graded());
   const Vec3 middle = (a + b) * 0.5;
   const auto may_cut = [&](const Box3& box) {
     bool may = false;
@@ -113,7 +113,7 @@ WallFace find_graded_face(const NearSeeds& seeds, CellIndex cell, Vec3 a, Vec3 b
   };
   polygon.start(a, b, seeds.seeds().empty_radius() * (1 + 1e-9));
   for (double reach = std::max(length(b - a), 0x1p-6);; reach *= 2) {
-    trees->visit(
+    trees.visit(
         cell, Box3{middle, middle}.grown(reach),
         [&](const Box3& box) { return min_squared(box, middle) <= reach * reach && may_cut(box); },
         cut);
