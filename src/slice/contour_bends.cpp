@@ -41,6 +41,18 @@ HWY_INLINE M may_bend(const double* x, const double* y, double tolerance, double
   const V size1 = squared(d1_x, d1_y), size = squared(ab_x, ab_y), size2 = squared(d2_x, d2_y);
   const V turn1 = cross_of(d1_x, d1_y, ab_x, ab_y), turn2 = cross_of(ab_x, ab_y, d2_x, d2_y);
   const V turn = cross_of(d1_x, d1_y, d2_x, d2_y), area = hn::Mul(turn1, turn2);
+  const V d0_x = hn::Sub(hn::LoadU(d, x - 1), hn::LoadU(d, x - 2));
+  const V d0_y = hn::Sub(hn::LoadU(d, y - 1), hn::LoadU(d, y - 2));
+  const V d3_x = hn::Sub(hn::LoadU(d, x + 3), hn::LoadU(d, x + 2));
+  const V d3_y = hn::Sub(hn::LoadU(d, y + 3), hn::LoadU(d, y + 2));
+  const V turn0 = cross_of(d0_x, d0_y, d1_x, d1_y), turn3 = cross_of(d2_x, d2_y, d3_x, d3_y);
+  const V back2 = hn::Set(d, tolerance * tolerance * (turn_back * turn_back));
+  const auto turns_back = [&](V other, V size_there) {
+    return hn::And(hn::Lt(hn::Mul(other, turn1), zero),
+                   hn::Gt(hn::Mul(other, other), hn::Mul(back2, size_there)));
+  };
+  const M turns_both_ways =
+      hn::Or(turns_back(turn0, squared(d0_x, d0_y)), turns_back(turn3, squared(d3_x, d3_y)));
   const M is_close = hn::Or(hn::Lt(size1, close2), hn::Lt(size2, close2));
   const M is_inflection = hn::Le(area, zero);
   const M bends_either_way = hn::Or(hn::Gt(hn::Mul(turn1, turn1), hn::Mul(limit2_4, size1)),
@@ -48,8 +60,8 @@ HWY_INLINE M may_bend(const double* x, const double* y, double tolerance, double
   const M is_flat =
       hn::And(hn::Gt(hn::Mul(turn, turn1), zero),
               hn::Le(hn::Mul(area, area), hn::Mul(hn::Mul(hn::Mul(limit2, turn), turn), size)));
-  const M bends =
-      hn::Or(hn::And(is_inflection, bends_either_way), hn::Not(hn::Or(is_inflection, is_flat)));
+  const M bends = hn::Or(hn::And(is_inflection, bends_either_way),
+                         hn::AndNot(is_inflection, hn::Or(turns_both_ways, hn::Not(is_flat))));
   return hn::And(hn::Gt(size, limit2), hn::Or(is_close, bends));
 }
 
@@ -60,7 +72,7 @@ void find_some_bends(const double* x, const double* y, size_t count, double tole
   const size_t words = (count + 63) / 64;
   for (size_t w = 0; w < words; ++w) {
     // Whole words alone, with the points that vectors read.
-    if (w == 0 || w * 64 + 66 > count) {
+    if (w == 0 || w * 64 + 67 > count) {
       bits[w] = ~uint64_t{0};
       continue;
     }
@@ -76,8 +88,8 @@ void find_some_bends_at_ends(const double* x, const double* y, const RingPoints*
                              size_t ring_count, double tolerance, double close, uint64_t* bits) {
   const D d;
   const size_t lanes = hn::Lanes(d);
-  // Pieces 2 points before a ring's end to 1 point behind its start.
-  constexpr uint32_t behind = 2, pieces = 3, before = 1, points = before + pieces + behind;
+  // Pieces 3 points before a ring's end to 2 points behind its start.
+  constexpr uint32_t behind = 3, pieces = 5, before = 2, points = before + pieces + behind;
   double at_x[points + 2 * max_simd_doubles] = {}, at_y[points + 2 * max_simd_doubles] = {};
   const auto put = [&](uint32_t id, bool bends) {
     bits[id / 64] = (bits[id / 64] & ~(uint64_t{1} << (id % 64))) | uint64_t{bends} << (id % 64);

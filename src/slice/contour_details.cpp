@@ -269,12 +269,18 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   }
   const double turn = cross(d1, d2);
   const bool has_triangle = turn * turn1 > 0;
+  // Where the boundary turns the other way before or behind the piece, it may leave the triangle.
+  const auto turns_back = [&](double other, Vec2 d) {
+    return other * turn1 < 0 && other * other > limit2 * (turn_back * turn_back) * dot(d, d);
+  };
+  const Vec2 d0 = rings_.at(p) - rings_.at(before(p)), d3 = rings_.at(behind(q)) - rings_.at(q);
+  const bool turns_one_way = !turns_back(cross(d0, d1), d0) && !turns_back(cross(d2, d3), d3);
   // The height of the triangle is turn1 * turn2 / (turn * size).
   if (const double area = turn1 * turn2;
-      has_triangle && area * area <= limit2 * turn * turn * size2)
+      has_triangle && turns_one_way && area * area <= limit2 * turn * turn * size2)
     return;
   Piece piece = make_piece();
-  piece.turn = turn1 > 0 ? 1 : -1;
+  if (turns_one_way) piece.turn = turn1 > 0 ? 1 : -1;
   if (has_triangle) {
     piece.corner = a + d1 * (turn2 / turn);
     piece.has_corner = is_in_cell(id, piece.corner);

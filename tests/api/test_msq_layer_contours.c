@@ -438,6 +438,22 @@ static void corners_of_regular_polygons_are_points_of_rings(void** state) {
   msq_context_release(context);
 }
 
+/* A step between two straight edges turns one way and then the other. */
+static void corners_of_steps_are_points_of_rings(void** state) {
+  (void)state;
+  msq_context* context = make_context();
+  uint64_t random = 3;
+  for (int i = 0; i < 3000; ++i) {
+    const double height = random_between(&random, 1.2, 3);
+    const double slope = random_between(&random, 0.1, 1.2);
+    double corners[MAX_CORNERS][2] = {{-6, -6},    {6, -6},     {6, 0}, {slope * height, 0},
+                                      {0, height}, {-6, height}};
+    place_corners(&random, corners, 6);
+    assert_ring_has_corners(context, i, corners, 6, random_between(&random, 0.02, 0.2));
+  }
+  msq_context_release(context);
+}
+
 /* Crossings are found to the spacing of numbers, if the tolerance asks for more. */
 static void tolerances_below_the_spacing_of_numbers_end(void** state) {
   (void)state;
@@ -485,6 +501,7 @@ int main(void) {
       cmocka_unit_test(memory_of_details_is_counted),
       cmocka_unit_test(corners_are_points_of_rings),
       cmocka_unit_test(corners_of_regular_polygons_are_points_of_rings),
+      cmocka_unit_test(corners_of_steps_are_points_of_rings),
       cmocka_unit_test(tolerances_below_the_spacing_of_numbers_end),
       cmocka_unit_test(release_of_null_does_nothing),
   };

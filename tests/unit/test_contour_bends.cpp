@@ -36,14 +36,19 @@ Line random_line(size_t count, Random& random) {
   return line;
 }
 
-/// The definition of what find_bends() tells: of four points, between the second and the third.
-bool may_bend(const Vec2 (&p)[4]) {
-  const Vec2 d1 = p[1] - p[0], ab = p[2] - p[1], d2 = p[3] - p[2];
+/// The definition of what find_bends() tells: of six points, between the third and the fourth.
+bool may_bend(const Vec2 (&p)[6]) {
+  const Vec2 d0 = p[1] - p[0], d1 = p[2] - p[1], ab = p[3] - p[2], d2 = p[4] - p[3],
+             d3 = p[5] - p[4];
   if (!(length(ab) > tolerance)) return false;
   if (length(d1) < close_points || length(d2) < close_points) return true;
   const double turn1 = cross(d1, ab), turn2 = cross(ab, d2), turn = cross(d1, d2);
   if (turn1 * turn2 <= 0)
     return std::max(std::abs(turn1) / length(d1), std::abs(turn2) / length(d2)) > 2 * tolerance;
+  const auto turns_back = [&](double other, Vec2 d) {
+    return other * turn1 < 0 && std::abs(other) > turn_back * tolerance * length(d);
+  };
+  if (turns_back(cross(d0, d1), d0) || turns_back(cross(d2, d3), d3)) return true;
   return !(turn * turn1 > 0 && std::abs(turn1 * turn2 / turn) <= tolerance * length(ab));
 }
 
@@ -55,11 +60,12 @@ void test_bends(void**) {
     std::vector<uint64_t> bits((count + 63) / 64);
     find_bends(line.x.data(), line.y.data(), count, tolerance, close_points, bits.data());
     size_t found = 0, flat = 0;
-    for (size_t i = 1; i + 2 < count; ++i) {
-      const bool bends = may_bend({line.at(i - 1), line.at(i), line.at(i + 1), line.at(i + 2)});
+    for (size_t i = 2; i + 3 < count; ++i) {
+      const bool bends = may_bend({line.at(i - 2), line.at(i - 1), line.at(i), line.at(i + 1),
+                                   line.at(i + 2), line.at(i + 3)});
       const bool is_found = bits[i / 64] >> (i % 64) & 1;
       // Near both ends of the points, words are not looked at.
-      const bool may_differ = i < 64 || i / 64 * 64 + 66 > count;
+      const bool may_differ = i < 64 || i / 64 * 64 + 67 > count;
       if (is_found != bends && !(may_differ && is_found)) fail_msg("piece %zu of %zu", i, count);
       found += bends;
       flat += !is_found;
@@ -91,16 +97,16 @@ void test_ends_of_rings(void**) {
       const uint32_t size = ring.end - ring.first;
       for (uint32_t i = 0; i < size; ++i) {
         const bool is_found = bit(ring.first + i);
-        if (size < 6) {
+        if (size < 10) {
           assert_true(is_found);
           continue;
         }
-        if (i >= 1 && i + 2 < size) {
+        if (i >= 2 && i + 3 < size) {
           assert_true(is_found == (before != 0));
           continue;
         }
-        Vec2 p[4];
-        for (uint32_t n = 0; n < 4; ++n) p[n] = line.at(ring.first + (i + size + n - 1) % size);
+        Vec2 p[6];
+        for (uint32_t n = 0; n < 6; ++n) p[n] = line.at(ring.first + (i + size + n - 2) % size);
         const bool bends = may_bend(p);
         if (is_found != bends) fail_msg("piece %u of the ring from %u", i, ring.first);
         found += bends;
