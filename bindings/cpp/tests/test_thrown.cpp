@@ -104,9 +104,10 @@ void many_exceptions_wait(void**) {
   for (int i = 0; i <= count; ++i) codes.push_back(kept_code(i));
   assert_string_equal(taken_text(codes[0]).c_str(), "none");  // the oldest gave way
   for (int i = 1; i < count; i += count / 3)
-    assert_string_equal(taken_text(codes[i]).c_str(), std::to_string(i).c_str());
+    assert_string_equal(taken_text(codes[static_cast<size_t>(i)]).c_str(),
+                        std::to_string(i).c_str());
   assert_string_equal(taken_text(codes[1]).c_str(), "none");  // thrown already
-  assert_string_equal(taken_text(codes[count]).c_str(), std::to_string(count).c_str());
+  assert_string_equal(taken_text(codes.back()).c_str(), std::to_string(count).c_str());
   for (const int32_t code : {0, -1, -(1 << 30), std::numeric_limits<int32_t>::min()})
     assert_true(msq::detail::Thrown::take(code) == nullptr);
   // An exception that gives way is freed where others may be thrown.
