@@ -282,7 +282,7 @@ static void normals_beside_the_faces_of_a_box_look_outwards(void** state) {
     char text[512];
     snprintf(text, sizeof text,
              "{\"msq_model\": 1, \"scales\": [{\"shape\": {\"box\": {\"min\": [0, 0, 0], \"max\": "
-             "[3.03, 3.07, 3.11]}}}, {\"structure\": %s}]}",
+             "[1.53, 1.57, 1.61]}}}, {\"structure\": %s}]}",
              structures[i]);
     msq_model* model = model_of(read_document(context, text));
     check_sides(model, 0.12, 5e-4);
