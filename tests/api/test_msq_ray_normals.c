@@ -244,6 +244,7 @@ static void normals_of_random_rays_lead_out(void** state) {
 }
 
 int main(void) {
+  if (!MSQ_WITH_JSON) return 0; /* models are documents */
   const struct CMUnitTest tests[] = {cmocka_unit_test(normals_lead_out),
                                      cmocka_unit_test(normals_of_random_rays_lead_out)};
   return cmocka_run_group_tests(tests, NULL, NULL);
