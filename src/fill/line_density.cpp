@@ -84,8 +84,9 @@ double mean_line_density(const Structure& structure) {
   double sum = 0, weights = 0;
   for (int i = 0; i < heights; ++i) {
     check_cancelled();
-    // Otherwise even heights through one period. Through many periods at places within the cells
-    // that are all different, by the golden section (Weyl), so that none is favoured.
+    // Heights are even through one period, too. Through many periods of other cells they are at
+    // places within the cells that are all different, by the golden section (Weyl), so that none is
+    // favoured.
     const double turn = 0.6180339887498949 * (i + 1);
     const double part = is_even || repeats ? 0.381966 : turn - std::floor(turn);
     const double place = (i + part) / heights;

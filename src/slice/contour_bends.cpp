@@ -46,10 +46,9 @@ HWY_INLINE M may_bend(const double* x, const double* y, double tolerance, double
   const V d3_x = hn::Sub(hn::LoadU(d, x + 3), hn::LoadU(d, x + 2));
   const V d3_y = hn::Sub(hn::LoadU(d, y + 3), hn::LoadU(d, y + 2));
   const V turn0 = cross_of(d0_x, d0_y, d1_x, d1_y), turn3 = cross_of(d2_x, d2_y, d3_x, d3_y);
-  const V back2 = hn::Set(d, tolerance * tolerance * (turn_back * turn_back));
   const auto turns_back = [&](V other, V size_there) {
     return hn::And(hn::Lt(hn::Mul(other, turn1), zero),
-                   hn::Gt(hn::Mul(other, other), hn::Mul(back2, size_there)));
+                   hn::Gt(hn::Mul(other, other), hn::Mul(limit2, size_there)));
   };
   const M turns_both_ways =
       hn::Or(turns_back(turn0, squared(d0_x, d0_y)), turns_back(turn3, squared(d3_x, d3_y)));

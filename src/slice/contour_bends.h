@@ -9,10 +9,6 @@
 
 namespace msq {
 
-/// Of the tolerance: where the boundary turns one way at a piece, it may turn the other way before
-/// and behind it by so much, as the distance of a point from the line through the two beside it.
-inline constexpr double turn_back = 1.0;
-
 /// Sets bit i of `bits` where the boundary may bend by more than `tolerance` between point i and
 /// the next one, as points i - 2 to i + 3 tell; also where a point that is nearer than `close` to
 /// its neighbour tells little about that, and at some pieces near both ends of the points. Writes

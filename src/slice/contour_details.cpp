@@ -269,9 +269,10 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   }
   const double turn = cross(d1, d2);
   const bool has_triangle = turn * turn1 > 0;
-  // Where the boundary turns the other way before or behind the piece, it may leave the triangle.
+  // Where the boundary turns the other way before or behind the piece, by more than the tolerance
+  // from the line through two points to the next, it may leave the triangle.
   const auto turns_back = [&](double other, Vec2 d) {
-    return other * turn1 < 0 && other * other > limit2 * (turn_back * turn_back) * dot(d, d);
+    return other * turn1 < 0 && other * other > limit2 * dot(d, d);
   };
   const Vec2 d0 = rings_.at(p) - rings_.at(before(p)), d3 = rings_.at(behind(q)) - rings_.at(q);
   const bool turns_one_way = !turns_back(cross(d0, d1), d0) && !turns_back(cross(d2, d3), d3);
@@ -299,11 +300,14 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
 /// Takes the middles of arcs where membership confirms the two lines to them: beside the middle and
 /// the middle of each line.
 void ContourDetails::take_arcs(ContourPoints& points) {
+  constexpr size_t places = 3;
   points.clear();
   for (const Piece& piece : memory_->pieces) {
     if (!piece.has_arc) continue;
     const Vec2 to_inside = left_of(unit(piece.b - piece.a)) * (0.75 * tolerance_);
-    for (const Vec2 at : {(piece.a + piece.arc) * 0.5, piece.arc, (piece.arc + piece.b) * 0.5}) {
+    const Vec2 lines[places] = {(piece.a + piece.arc) * 0.5, piece.arc,
+                                (piece.arc + piece.b) * 0.5};
+    for (const Vec2 at : lines) {
       points.add(at + to_inside);
       points.add(at - to_inside);
     }
@@ -314,7 +318,7 @@ void ContourDetails::take_arcs(ContourPoints& points) {
   for (const Piece& piece : memory_->pieces) {
     if (piece.has_arc) {
       bool is_near = true;
-      for (size_t k = 0; k < 3; ++k, n += 2) is_near = is_near && inside[n] && !inside[n + 1];
+      for (size_t k = 0; k < places; ++k, n += 2) is_near = is_near && inside[n] && !inside[n + 1];
       if (is_near) {
         memory_->details.push_back({piece.id, piece.next, 0.5, piece.arc});
         continue;

@@ -13,6 +13,9 @@ namespace msq {
 struct BoundaryWay {
   Vec3 inside, outside;
   Vec3 middle() const { return (inside + outside) * 0.5; }
+  double size() const { return length(inside - outside); }
+  /// The unit direction; 0 if the ends are equal.
+  Vec3 inwards() const { return size() > 0 ? (inside - outside) * (1 / size()) : Vec3{}; }
 };
 /// Halves the ways `rounds` times, so that each still leads from inside to outside.
 void halve(const Model& model, const Scales& resolved, std::vector<BoundaryWay>& ways, int rounds,

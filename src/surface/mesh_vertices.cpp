@@ -255,12 +255,11 @@ void MeshVertices::place_by_membership(const std::vector<uint64_t>& left, const 
     Vec3& normal = normals_[moved[n]];
     Seed seed = seeds_[moved[n]];
     // A way may begin on a face of the box, inside the model. It then leads through the face.
-    const Vec3 inwards = ways[n].inside - ways[n].outside;
-    const double size = length(inwards);
+    const Ray ray{ways[n].outside, ways[n].inwards()};
     if (seed.faces)
       normal = face_normal(seed, normal);
-    else if (size > 0 && comes_from_face({ways[n].outside, inwards * (1 / size)}, seed))
-      normal = face_normal(seed, inwards * -1.0);
+    else if (comes_from_face(ray, seed))
+      normal = face_normal(seed, ray.direction * -1.0);
   }
 }
 
@@ -271,9 +270,8 @@ void MeshVertices::take_normals(std::span<const uint64_t> vertices,
   const auto fill = [&](std::span<const uint64_t> rays, RaySearch* searches) {
     for (size_t n = 0; n < rays.size(); ++n) {
       const BoundaryWay& way = ways[rays[n]];
-      const Vec3 inwards = way.inside - way.outside;
-      const double size = length(inwards);
-      searches[n].ray = {way.outside, size > 0 ? inwards * (1 / size) : Vec3{1, 0, 0}};
+      const double size = way.size();
+      searches[n].ray = {way.outside, size > 0 ? way.inwards() : Vec3{1, 0, 0}};
       searches[n].from = 0;
       searches[n].to = size > 0 ? 2 * size : -1;
     }

@@ -204,9 +204,8 @@ static msq_model* model_with(msq_context* context, const char* structure) {
 }
 
 static void normals_lead_out(void** state) {
-  msq_context* context;
+  msq_context* context = make_context();
   (void)state;
-  assert_ok(msq_context_create(NULL, &context));
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
     const row* r = &rows[i];
     msq_model* model = model_with(context, r->structure);
@@ -222,9 +221,8 @@ static void normals_lead_out(void** state) {
 /* Rays from outside, with components of both signs. */
 static void normals_of_random_rays_lead_out(void** state) {
   const size_t count = test_count(300), wanted = count < 20 ? 20 : count;
-  msq_context* context;
+  msq_context* context = make_context();
   (void)state;
-  assert_ok(msq_context_create(NULL, &context));
   for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
     msq_model* model = model_with(context, scenes[i].structure);
     uint64_t random = 3;

@@ -46,7 +46,7 @@ bool may_bend(const Vec2 (&p)[6]) {
   if (turn1 * turn2 <= 0)
     return std::max(std::abs(turn1) / length(d1), std::abs(turn2) / length(d2)) > 2 * tolerance;
   const auto turns_back = [&](double other, Vec2 d) {
-    return other * turn1 < 0 && std::abs(other) > turn_back * tolerance * length(d);
+    return other * turn1 < 0 && std::abs(other) > tolerance * length(d);
   };
   if (turns_back(cross(d0, d1), d0) || turns_back(cross(d2, d3), d3)) return true;
   return !(turn * turn1 > 0 && std::abs(turn1 * turn2 / turn) <= tolerance * length(ab));

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "msq_test.h"
+#include "thrown_by.h"
 
 namespace {
 
@@ -37,18 +38,6 @@ msq::Slicer slicer(const msq::Model& model, double pitch = 0.25) {
   def.pitch[0] = def.pitch[1] = pitch;
   def.layer_height = 0.5;
   return {model, def};
-}
-
-/// The message of what a call throws.
-template <class Call>
-std::string thrown_by(Call&& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  fail_msg("nothing was thrown");
-  return "";
 }
 
 void handles_count_references(void**) {

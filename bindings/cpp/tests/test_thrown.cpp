@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "msq_test.h"
+#include "thrown_by.h"
 
 namespace {
 
@@ -37,17 +38,6 @@ msq::Model throwing_model(const msq::Context& context, Throw throws) {
   foam.radius = msq::param(radius);
   return {context,
           {msq::Shape::box(context, {0, 0, 0}, {10, 10, 10}), msq::Structure::foam(context, foam)}};
-}
-
-/// The message of what a call throws.
-template <class Call>
-std::string thrown_by(Call&& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "nothing";
 }
 
 /// Another callback of the call runs on after the throw, and catches exceptions of calls of its

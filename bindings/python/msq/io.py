@@ -34,7 +34,7 @@ from ._library import StructT, constant, defaults, lib, raise_error
 from .context import Job, c_path, c_text, unsigned
 from .errors import BY_STATUS, Error, HostError, naming
 from .model import Model
-from .slicer import Slicer
+from .slicer import Slicer, list_heights
 from .strut_graph import StrutGraph
 from .surface import _FORMATS, Box, definition_of
 
@@ -130,17 +130,15 @@ class Panel:
 
 
 def panel_slicer(model: Model, *, layer_height: Optional[float] = None, layer_z: Any = None,
-                 panel: Panel = Panel(), layer_count: int = 0, grey_samples: int = 4, grey_gamma: float = 1.0,
-                 grey_threshold: int = 0, slab_layers: int = 0, length_scale: float = 0.0) -> Slicer:
+                 panel: Panel = Panel(), layer_count: int = 0, grey_samples: int = 4,
+                 grey_gamma: float = 1.0, grey_threshold: int = 0, slab_layers: int = 0,
+                 length_scale: float = 0.0) -> Slicer:
     """A slicer whose images are those of a panel, in grey, with the part in its middle. Other
     arguments as of Slicer."""
     definition = defaults(_abi.msq_slicer_def)
     if layer_height is not None:
         definition.layer_height = layer_height
-    heights = None if layer_z is None else vector(layer_z, np.float64, (-1,), "layer_z")
-    if heights is not None:
-        definition.layer_z = pointer(heights, ctypes.c_double)
-        definition.layer_z_count = len(heights)
+    heights = list_heights(definition, layer_z)  # kept until the slicer is made
     definition.layer_count = unsigned(layer_count, 64, "layer_count")
     definition.grey_samples = unsigned(grey_samples, 32, "grey_samples")
     definition.grey_gamma = grey_gamma

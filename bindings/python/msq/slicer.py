@@ -251,10 +251,7 @@ class Slicer(Handle):
             definition.has_region = 1
             definition.region_min[:] = triple(low, "region")
             definition.region_max[:] = triple(high, "region")
-        heights = None if layer_z is None else vector(layer_z, np.float64, (-1,), "layer_z")
-        if heights is not None:
-            definition.layer_z = pointer(heights, ctypes.c_double)
-            definition.layer_z_count = len(heights)
+        heights = list_heights(definition, layer_z)  # kept until the slicer is made
         definition.length_scale = length_scale
         self._output = output
         self._plan(model, definition)
@@ -490,6 +487,17 @@ class Slicer(Handle):
             raise IndexError(f"layers {first} to {last} do not exist; there are {self.layer_count} "
                              "layers")
         return first, last
+
+
+def list_heights(definition: _abi.msq_slicer_def, layer_z: Any) -> Optional[np.ndarray]:
+    """Sets the heights of the definition, if there are any. The caller keeps what this returns as
+    long as the definition is used."""
+    if layer_z is None:
+        return None
+    heights = vector(layer_z, np.float64, (-1,), "layer_z")
+    definition.layer_z = pointer(heights, ctypes.c_double)
+    definition.layer_z_count = len(heights)
+    return heights
 
 
 def _pair(value: Any, name: str) -> Tuple[Any, Any]:

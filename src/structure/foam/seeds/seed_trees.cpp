@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/foam/seeds/seed_trees.h"
 
+#include <algorithm>
+
 #include "base/job.h"
 
 namespace msq {
@@ -123,15 +125,12 @@ LeafSeed SeedTrees::at(CellIndex home, Vec3 q) {
 
 SeedTrees& SeedForest::of(const std::shared_ptr<const GradedSeeds>& seeds) {
   size_t n = 0;
-  for (size_t i = 0; i < foams; ++i) {
-    if (trees_[i].has(seeds)) {
-      n = i;
-      break;
-    }
-    if (last_used_[i] < last_used_[n]) n = i;
+  while (n < foams && !trees_[n].has(seeds)) ++n;
+  if (n == foams) {
+    n = static_cast<size_t>(std::min_element(last_used_, last_used_ + foams) - last_used_);
+    if (bytes() > max_bytes)
+      for (SeedTrees& trees : trees_) trees = {};
   }
-  if (!trees_[n].has(seeds) && bytes() > max_bytes)
-    for (SeedTrees& trees : trees_) trees = {};
   last_used_[n] = ++uses_;
   trees_[n].move_to(seeds);
   return trees_[n];
