@@ -19,6 +19,10 @@ constexpr size_t pieces_at_once = 4096;
 /// Curvatures of triples of points are even where those in the middle exceed the others by no more
 /// than this factor.
 constexpr double even_curvature = 1.6;
+/// Along a piece, and of the tolerance: where membership tells whether it is near enough to the
+/// boundary; see keep_bent().
+constexpr double places_beside[] = {0.25, 0.5, 0.75};
+constexpr double beside_piece = 0.75;
 /// Of the tolerance: arcs that are no higher than that are probably near enough to their chords, so
 /// their middles are not taken. Corners of regular polygons look like such arcs.
 constexpr double flat_arc = 0.5;
@@ -42,16 +46,17 @@ double curvature(Vec2 a, Vec2 b, Vec2 c) {
 /// that bends about evenly; 0 where they do not. At a corner between a and b the curvature of
 /// triples that hold both is far above that of the outer ones; above that of one of them, where the
 /// other holds a second corner.
-double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q) {
+double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q, double least) {
   const double k1 = curvature(p, a, b), k2 = curvature(a, b, q);
-  if (!(k1 * k2 > 0)) return 0;
+  const double bend = 0.125 * 0.5 * (k1 + k2) * dot(b - a, b - a);
+  if (!(k1 * k2 > 0 && std::abs(bend) > least)) return 0;
   const double k0 = curvature(before_p, p, a);
   if (!(k0 * k1 > 0)) return 0;
   const double k3 = curvature(b, q, behind_q);
   if (!(k3 * k1 > 0)) return 0;
   const double inner = std::max(std::abs(k1), std::abs(k2));
   if (!(inner <= even_curvature * std::min(std::abs(k0), std::abs(k3)))) return 0;
-  return 0.125 * 0.5 * (k1 + k2) * dot(b - a, b - a);
+  return bend;
 }
 
 /// Whether segments ab and cd have a point in common.
@@ -95,8 +100,8 @@ void ContourDetails::find(ContourPoints& points) {
 /// points that tell about it, and the lines that RingBuilder makes of the points found.
 void ContourDetails::hold_memory() {
   constexpr uint64_t points_of_piece = 6;
-  constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Search) + sizeof(Search*) +
-                                points_of_piece * ContourPoints::bytes_of_point;
+  constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Corner) + sizeof(Search) +
+                                sizeof(Search*) + points_of_piece * ContourPoints::bytes_of_point;
   constexpr uint64_t of_taken = 6 * sizeof(uint64_t);
   constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LineRun) + 2 * sizeof(Vec2);
   held_.grow_to(memory_->bends.size() * sizeof(uint64_t) +
@@ -157,12 +162,11 @@ bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
          p.y <= cell.high.y - margin;
 }
 
-/// The cell that holds the corner of a piece, beside the piece's own one; 0 if there is no such
+/// The cell that holds the corner x of a piece, beside the piece's own one; 0 if there is no such
 /// cell or if it may have other pieces.
-uint64_t ContourDetails::cell_beside(const Piece& piece) const {
+uint64_t ContourDetails::cell_beside(const Piece& piece, Vec2 x) const {
   const ContourGrid& grid = rings_.grid();
   const Cell cell = rings_.cell_of(piece.id);
-  const Vec2 x = piece.corner;
   // The side between both cells: its direction is across `axis`.
   const int axis = x.x < cell.low.x || x.x > cell.high.x ? 0 : 1, along = 1 - axis;
   const bool is_high = x[axis] > cell.high[axis];
@@ -188,6 +192,24 @@ uint64_t ContourDetails::cell_beside(const Piece& piece) const {
                          grid.inside(column, row + 1) == is_inside &&
                          grid.inside(column + 1, row + 1) == is_inside;
   return are_alike ? place : 0;
+}
+
+Vec2 ContourDetails::Piece::arc() const {
+  return middle() - left_of(unit(b - a)) * bend;
+}
+
+/// Where the lines through the crossings before and behind a piece meet.
+ContourDetails::Corner ContourDetails::corner_of(const Piece& piece) const {
+  if (!piece.has_triangle) return {};
+  const Vec2 d1 = piece.a - rings_.at(piece.before), d2 = rings_.at(piece.behind) - piece.b;
+  Corner corner;
+  corner.at = piece.a + d1 * (cross(piece.b - piece.a, d2) / cross(d1, d2));
+  corner.is_possible = is_in_cell(piece.id, corner.at);
+  if (!corner.is_possible && rings_.gaps().parts() > 1) {
+    corner.beside = cell_beside(piece, corner.at);
+    corner.is_possible = corner.beside != 0;
+  }
+  return corner;
 }
 
 void ContourDetails::find_suspects(ContourPoints& points) {
@@ -268,7 +290,6 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
     return;
   }
   const double turn = cross(d1, d2);
-  const bool has_triangle = turn * turn1 > 0;
   // Where the boundary turns the other way before or behind the piece, by more than the tolerance
   // from the line through two points to the next, it may leave the triangle.
   const auto turns_back = [&](double other, Vec2 d) {
@@ -276,24 +297,20 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   };
   const Vec2 d0 = rings_.at(p) - rings_.at(before(p)), d3 = rings_.at(behind(q)) - rings_.at(q);
   const bool turns_one_way = !turns_back(cross(d0, d1), d0) && !turns_back(cross(d2, d3), d3);
-  // The height of the triangle is turn1 * turn2 / (turn * size).
-  if (const double area = turn1 * turn2;
-      has_triangle && turns_one_way && area * area <= limit2 * turn * turn * size2)
-    return;
   Piece piece = make_piece();
-  if (turns_one_way) piece.turn = turn1 > 0 ? 1 : -1;
-  if (has_triangle) {
-    piece.corner = a + d1 * (turn2 / turn);
-    piece.has_corner = is_in_cell(id, piece.corner);
-    piece.is_corner_beyond = !piece.has_corner && rings_.gaps().parts() > 1;
+  piece.before = p;
+  piece.behind = q;
+  piece.has_triangle = turn * turn1 > 0;
+  if (turns_one_way) {
+    // The height of the triangle is turn1 * turn2 / (turn * size).
+    const double area = turn1 * turn2;
+    if (piece.has_triangle && area * area <= limit2 * turn * turn * size2) return;
+    piece.turn = turn1 > 0 ? 1 : -1;
   }
-  if (const double bend =
-          bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)));
-      bend != 0) {
-    piece.arc = piece.middle() - left_of(unit(ab)) * bend;
-    piece.has_arc = std::abs(bend) > flat_arc * tolerance_ && std::abs(bend) <= 4 * tolerance_ &&
-                    is_in_cell(id, piece.arc);
-  }
+  piece.bend = bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)),
+                       flat_arc * tolerance_);
+  if (piece.bend != 0 && !(std::abs(piece.bend) <= 4 * tolerance_ && is_in_cell(id, piece.arc())))
+    piece.bend = 0;
   add_piece(piece);
 }
 
@@ -303,10 +320,10 @@ void ContourDetails::take_arcs(ContourPoints& points) {
   constexpr size_t places = 3;
   points.clear();
   for (const Piece& piece : memory_->pieces) {
-    if (!piece.has_arc) continue;
-    const Vec2 to_inside = left_of(unit(piece.b - piece.a)) * (0.75 * tolerance_);
-    const Vec2 lines[places] = {(piece.a + piece.arc) * 0.5, piece.arc,
-                                (piece.arc + piece.b) * 0.5};
+    if (piece.bend == 0) continue;
+    const Vec2 to_inside = left_of(unit(piece.b - piece.a)) * (beside_piece * tolerance_);
+    const Vec2 arc = piece.arc();
+    const Vec2 lines[places] = {(piece.a + arc) * 0.5, arc, (arc + piece.b) * 0.5};
     for (const Vec2 at : lines) {
       points.add(at + to_inside);
       points.add(at - to_inside);
@@ -316,11 +333,11 @@ void ContourDetails::take_arcs(ContourPoints& points) {
   begin_run();
   size_t kept = 0, n = 0;
   for (const Piece& piece : memory_->pieces) {
-    if (piece.has_arc) {
+    if (piece.bend != 0) {
       bool is_near = true;
       for (size_t k = 0; k < places; ++k, n += 2) is_near = is_near && inside[n] && !inside[n + 1];
       if (is_near) {
-        memory_->details.push_back({piece.id, piece.next, 0.5, piece.arc});
+        memory_->details.push_back({piece.id, piece.next, 0.5, piece.arc()});
         continue;
       }
     }
@@ -345,33 +362,20 @@ void ContourDetails::keep_bent(ContourPoints& points) {
   size_t n = 0;
   for (Piece& piece : pieces)
     piece.is_inside = piece.turn == 0 ? middles[n++] != 0 : piece.turn > 0;
-  const double aside_size = 0.75 * tolerance_;
-  const auto aside_of = [&](const Piece& piece) {
-    return left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -aside_size : aside_size);
-  };
-  const auto beside = [](const Piece& piece, Vec2 aside, double place) {
-    return piece.a + (piece.b - piece.a) * place + aside;
-  };
-  const auto look_beside = [&](std::span<const double> places) {
-    points.clear();
-    for (const Piece& piece : pieces) {
-      if (piece.is_bent) continue;
-      const Vec2 aside = aside_of(piece);
-      for (const double place : places) points.add(beside(piece, aside, place));
-    }
-    const std::vector<uint8_t>& inside = points.find_inside();
-    size_t next = 0;
-    for (Piece& piece : pieces) {
-      if (piece.is_bent) continue;
+  points.clear();
+  for (const Piece& piece : pieces) {
+    const Vec2 along = piece.b - piece.a;
+    const double size = piece.is_inside ? -beside_piece : beside_piece;
+    const Vec2 aside = left_of(unit(along)) * (size * tolerance_);
+    for (const double place : places_beside) points.add(piece.a + along * place + aside);
+  }
+  const std::vector<uint8_t>& inside = points.find_inside();
+  size_t next = 0;
+  for (Piece& piece : pieces)
+    for (size_t k = 0; k < std::size(places_beside); ++k, ++next)
       // Along the edges of a window, what is beyond does not count.
-      for (const double place : places)
-        if ((inside[next++] != 0) == piece.is_inside && !piece.is_bent)
-          piece.is_bent = is_in_window(beside(piece, aside_of(piece), place));
-    }
-  };
-  constexpr double middle[] = {0.5}, quarters[] = {0.25, 0.75};
-  look_beside(middle);  // it tells for most
-  look_beside(quarters);
+      if ((inside[next] != 0) == piece.is_inside && !piece.is_bent)
+        piece.is_bent = is_in_window(points.at(next));
   size_t kept = 0;
   for (const Piece& piece : pieces) {
     if (!piece.is_bent) continue;
@@ -395,13 +399,12 @@ void ContourDetails::take_corners(ContourPoints& points) {
     points.add(p + towards_inside * tolerance_);
     points.add(p - towards_inside * tolerance_);
   };
-  for (Piece& piece : memory_->pieces) {
-    if (piece.is_corner_beyond) {
-      piece.beside = cell_beside(piece);
-      piece.has_corner = piece.beside != 0;
-    }
-    if (!piece.has_corner) continue;
-    const Vec2 x = piece.corner;
+  std::vector<Corner>& corners = memory_->corners;
+  corners.clear();
+  for (const Piece& piece : memory_->pieces) {
+    Corner& corner = corners.emplace_back(corner_of(piece));
+    if (!corner.is_possible) continue;
+    const Vec2 x = corner.at;
     both_sides((piece.a + x) * 0.5, left_of(unit(x - piece.a)));
     both_sides((x + piece.b) * 0.5, left_of(unit(piece.b - x)));
     const bool is_concave = cross(piece.b - piece.a, x - piece.a) > 0;
@@ -409,17 +412,18 @@ void ContourDetails::take_corners(ContourPoints& points) {
   }
   const std::vector<uint8_t>& inside = points.find_inside();
   begin_run();
-  size_t kept = 0, first = 0;
+  size_t kept = 0, first = 0, number = 0;
   for (const Piece& piece : memory_->pieces) {
-    if (piece.has_corner) {
+    const Corner& corner = corners[number++];
+    if (corner.is_possible) {
       bool is_corner = true;
       for (size_t n = first; n < first + 6; n += 2)
         is_corner = is_corner && inside[n] && !inside[n + 1];
       first += 6;
-      if (is_corner && piece.beside != 0) is_corner = taken_.insert(piece.beside).second;
+      if (is_corner && corner.beside != 0) is_corner = taken_.insert(corner.beside).second;
       if (is_corner) {
         memory_->details.push_back(
-            {piece.id, piece.next, 0.5 * (piece.begin + piece.end), piece.corner});
+            {piece.id, piece.next, 0.5 * (piece.begin + piece.end), corner.at});
         continue;
       }
     }

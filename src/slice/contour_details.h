@@ -61,16 +61,21 @@ class ContourDetails {
 
  private:
   struct Piece {
-    uint32_t id, next;  // crossings
+    uint32_t id, next;                // crossings
+    uint32_t before = 0, behind = 0;  // crossings that tell about the direction at its ends
     int depth = 0;
     int turn = 0;  // where known: 1: the boundary turns left between its ends, -1: right
-    bool has_arc = false, has_corner = false, is_inside = false, is_bent = false;
-    bool is_corner_beyond = false;  // the piece's cell
-    uint64_t beside = 0;  // the cell that holds the corner, if the piece's own one does not
+    bool has_triangle = false, is_inside = false, is_bent = false;
     Vec2 a, b;
-    Vec2 arc = {}, corner = {};
     double begin = 0, end = 1;  // orders of a and b
+    double bend = 0;  // of an arc: how far its middle is from the chord, to the right; or 0
     Vec2 middle() const { return (a + b) * 0.5; }
+    Vec2 arc() const;
+  };
+  struct Corner {
+    bool is_possible = false;
+    Vec2 at = {};
+    uint64_t beside = 0;  // the cell that holds the corner, if the piece's own one does not
   };
   struct Search {
     size_t piece;
@@ -94,7 +99,8 @@ class ContourDetails {
   /// A crossing that is nearer than that to another tells little about the direction.
   double close() const { return rings_.grid().pitch() / 16; }
   bool is_in_cell(uint32_t id, Vec2 p) const;
-  uint64_t cell_beside(const Piece& piece) const;
+  Corner corner_of(const Piece& piece) const;
+  uint64_t cell_beside(const Piece& piece, Vec2 x) const;
   bool is_in_window(Vec2 p) const;
   Vec2 rounded(Vec2 p) const;
 
@@ -106,12 +112,13 @@ class ContourDetails {
     std::vector<uint64_t> bends;  // see find_bends()
     std::vector<RingPoints> closed;
     std::vector<Piece> pieces, halves;
+    std::vector<Corner> corners;  // of pieces
     std::vector<DetailPoint> details;
     std::vector<size_t> runs;  // where runs of details begin
     size_t bytes() const {
       return bends.capacity() * sizeof(uint64_t) + closed.capacity() * sizeof(RingPoints) +
              (pieces.capacity() + halves.capacity()) * sizeof(Piece) +
-             details.capacity() * sizeof(DetailPoint);
+             corners.capacity() * sizeof(Corner) + details.capacity() * sizeof(DetailPoint);
     }
   };
   const Borrowed<Memory> memory_;
