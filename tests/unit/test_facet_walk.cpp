@@ -101,23 +101,30 @@ void test_random_grids(void**) {
 /// Owner, and the two other seeds from it.
 using Triple = std::array<int, 9>;
 
-/// Compares a brick of 4^3 cells edge by edge, by their seeds. Returns the number of edges.
-size_t compare_small(const FoamSeeds& seeds, CellIndex corner, const FacetWalk& walk) {
-  constexpr int side = 4;
-  EdgeBuilder builder;
-  builder.build(seeds, corner, side, true);
-  const Vec3 middle = seeds.scale() * (0.5 * side);
-  std::map<Triple, FloatSegment> rest;
+/// Those that the seeds own.
+std::map<Triple, FloatSegment> edges_of(const FacetWalk& walk, const Owners& owners) {
+  std::map<Triple, FloatSegment> edges;
   walk.for_each_edge([&](const FacetWalk::Edge& edge) {
     const auto &o = edge.owner, &a = edge.others[0], &b = edge.others[1];
+    if (!owners.hold({{o[0], o[1], o[2]}, {o[0] + 1, o[1] + 1, o[2] + 1}})) return;
     FloatSegment segment;
     for (int axis = 0; axis < 3; ++axis) {
       segment.a[axis] = walk.vertex(edge.ends[0])[axis];
       segment.b[axis] = walk.vertex(edge.ends[1])[axis];
     }
     const Triple triple{o[0], o[1], o[2], a[0], a[1], a[2], b[0], b[1], b[2]};
-    assert_true(rest.emplace(triple, segment).second);
+    assert_true(edges.emplace(triple, segment).second);
   });
+  return edges;
+}
+
+/// Compares a brick of 4^3 cells edge by edge, by their seeds. Returns the number of edges.
+size_t compare_small(const FoamSeeds& seeds, CellIndex corner, const FacetWalk& walk) {
+  constexpr int side = 4;
+  EdgeBuilder builder;
+  builder.build(seeds, corner, side, true);
+  const Vec3 middle = seeds.scale() * (0.5 * side);
+  std::map<Triple, FloatSegment> rest = edges_of(walk, Owners::all(side));
   assert_int_equal(rest.size(), walk.count());
   const BrickSeeds& block = builder.block();
   bool is_known = true;
@@ -164,6 +171,44 @@ void test_small_bricks(void**) {
       }
   print_message("%zu edges of %zu bricks; %zu bricks refused\n", edges, bricks, refused);
   assert_true(8 * refused <= bricks);
+}
+
+/// The edges of some seeds of a brick are those that the whole brick has of them.
+void test_parts(void**) {
+  const auto walk = std::make_unique<FacetWalk>();
+  Random random(23);
+  size_t parts = 0, refused = 0, edges = 0;
+  for (const double jitter : {1.0, 0.5, 0.05})
+    for (const Vec3 scale : {Vec3{1, 1, 1}, Vec3{1, 0.8, 0.9}})
+      for (size_t n = test_count(30); n > 0; --n) {
+        const FoamSeeds seeds(random.bits(), jitter, scale);
+        const auto place = [&] { return static_cast<int32_t>(random.below(64)) - 32; };
+        const CellIndex corner{place(), place(), place()};
+        Owners owners = Owners::all(FacetWalk::side);
+        for (int axis = 0; axis < 3; ++axis) {
+          if (random.below(2)) continue;
+          owners.low[axis] = static_cast<int>(random.below(FacetWalk::side));
+          const auto room = static_cast<uint64_t>(FacetWalk::side - owners.low[axis]);
+          owners.high[axis] = owners.low[axis] + 1 + static_cast<int>(random.below(room));
+        }
+        ++parts;
+        if (!walk->build(seeds, corner)) {
+          ++refused;
+          continue;
+        }
+        const std::map<Triple, FloatSegment> expected = edges_of(*walk, owners);
+        assert_true(walk->build(seeds, corner, FacetWalk::side, owners));
+        const std::map<Triple, FloatSegment> found = edges_of(*walk, owners);
+        assert_int_equal(found.size(), walk->count());
+        assert_int_equal(found.size(), expected.size());
+        for (const auto& [triple, segment] : expected) {
+          assert_true(found.count(triple));
+          assert_true(apart(found.at(triple), segment) <= 2 * edge_error);
+        }
+        edges += found.size();
+      }
+  print_message("%zu edges of %zu parts; %zu bricks refused\n", edges, parts, refused);
+  assert_true(8 * refused <= parts);
 }
 
 /// A seed of the brick whose tetrahedra have no other seed of it.
@@ -218,9 +263,9 @@ void test_refused(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_random_grids), cmocka_unit_test(test_island),
-                              cmocka_unit_test(test_small_bricks),
-                              cmocka_unit_test(test_instruction_sets),
-                              cmocka_unit_test(test_refused)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(test_random_grids),     cmocka_unit_test(test_island),
+      cmocka_unit_test(test_small_bricks),     cmocka_unit_test(test_parts),
+      cmocka_unit_test(test_instruction_sets), cmocka_unit_test(test_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -35,6 +35,7 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
     : Structure(neighbourhood, placed ? placed->largest() : max_component(neighbourhood.cell_size)),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
+      brick_parts_id_(context_->new_structure_id()),
       ray_bricks_id_(context_->new_structure_id()),
       cell_lists_id_(context_->new_structure_id()),
       ray_demand_id_(context_->new_structure_id()),
@@ -50,7 +51,8 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
       graph_(make_graph(seeds_, graded_, stretch_.get())) {}
 
 FoamData::~FoamData() {
-  for (const uint64_t id : {id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_, paper_cells_id_})
+  for (const uint64_t id :
+       {id_, brick_parts_id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_, paper_cells_id_})
     context_->cache.drop(id);
 }
 

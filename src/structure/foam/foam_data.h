@@ -40,9 +40,11 @@ class FoamData : public Structure {
   /// The maximum radius in a cell and within `margin` of it, all in foam units.
   double max_radius(CellIndex cell, double margin) const;
   Context& context() const { return *context_; }
-  /// Ids in the cache: of edges for slices, of edges for rays, of the struts of a cell if seeds are
-  /// graded, of the count of rays, and of cells of the paper's methods.
+  /// Ids in the cache: of edges for slices, of edges for single layers, of edges for rays, of the
+  /// struts of a cell if seeds are graded, of the count of rays, and of cells of the paper's
+  /// methods.
   uint64_t id() const { return id_; }
+  uint64_t brick_parts_id() const { return brick_parts_id_; }
   uint64_t ray_bricks_id() const { return ray_bricks_id_; }
   uint64_t cell_lists_id() const { return cell_lists_id_; }
   uint64_t ray_demand_id() const { return ray_demand_id_; }
@@ -73,7 +75,8 @@ class FoamData : public Structure {
 
  private:
   const Ref<Context> context_;
-  const uint64_t id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_, paper_cells_id_;
+  const uint64_t id_, brick_parts_id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_,
+      paper_cells_id_;
   const Parameter radius_;
   const double unit_;
   const FoamSeeds seeds_;

@@ -11,6 +11,10 @@ FoamGraph::BrickLayout FoamGraph::brick_layout() const {
   return {EdgeBrick::side, EdgeBrick::lead};
 }
 
+std::shared_ptr<const EdgeBrick> FoamGraph::make_part(CellIndex corner, const Owners&) const {
+  return make_brick(corner);
+}
+
 bool FoamGraph::may_own_edges(CellIndex, const Box3&) const {
   return true;
 }

@@ -12,6 +12,7 @@
 
 #include "base/vec.h"
 #include "cell/neighbourhood.h"
+#include "structure/foam/edges/owners.h"
 
 namespace msq {
 
@@ -34,6 +35,9 @@ class FoamGraph {
   virtual BrickLayout brick_layout() const;
   /// The edges that the seeds of a brick own (edges/edge_brick.h).
   virtual std::shared_ptr<const EdgeBrick> make_brick(CellIndex corner) const = 0;
+  /// Whether bricks of some of their seeds take less time. Then make_part() makes them.
+  virtual bool has_parts() const { return false; }
+  virtual std::shared_ptr<const EdgeBrick> make_part(CellIndex corner, const Owners& owners) const;
   /// Maximum error of an edge of a brick.
   virtual double brick_error() const = 0;
   /// Whether a brick may own edges that come into a box (grid coordinates, model units).

@@ -19,6 +19,11 @@ std::shared_ptr<const EdgeBrick> UniformGraph::make_brick(CellIndex corner) cons
   return std::make_shared<const EdgeBrick>(seeds_, corner);
 }
 
+std::shared_ptr<const EdgeBrick> UniformGraph::make_part(CellIndex corner,
+                                                         const Owners& owners) const {
+  return std::make_shared<const EdgeBrick>(seeds_, corner, owners);
+}
+
 double UniformGraph::brick_error() const {
   return edge_error;
 }

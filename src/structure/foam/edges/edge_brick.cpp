@@ -24,11 +24,12 @@ struct WeightedEdgesWorkspace {
   size_t bytes() const { return builder.bytes(); }
 };
 
-bool walk_facets(const FoamSeeds& seeds, CellIndex corner, SegmentSet& segments) {
+bool walk_facets(const FoamSeeds& seeds, CellIndex corner, const Owners& owners,
+                 SegmentSet& segments) {
   static_assert(FacetWalk::side == EdgeBrick::side);
   if (!FacetWalk::suits(seeds)) return false;
   const Borrowed<FacetWalk> walk;
-  if (!walk->build(seeds, corner)) return false;
+  if (!walk->build(seeds, corner, EdgeBrick::side, owners)) return false;
   segments = walk->segments();
   return true;
 }
@@ -36,8 +37,13 @@ bool walk_facets(const FoamSeeds& seeds, CellIndex corner, SegmentSet& segments)
 }  // namespace
 
 EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner)
-    : origin_(seeds.scale() * (0.5 * side)) {
-  if (!walk_facets(seeds, corner, segments_)) segments_ = by_cells(seeds, corner).segments_;
+    : EdgeBrick(seeds, corner, Owners::all(side)) {}
+
+EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner, const Owners& owners)
+    : origin_(seeds.scale() * (0.5 * side)), owners_(owners) {
+  if (walk_facets(seeds, corner, owners, segments_)) return;
+  segments_ = by_cells(seeds, corner).segments_;
+  owners_ = Owners::all(side);
 }
 
 EdgeBrick EdgeBrick::by_cells(const FoamSeeds& seeds, CellIndex corner) {

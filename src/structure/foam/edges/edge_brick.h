@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cell/cache.h"
+#include "structure/foam/edges/owners.h"
 #include "structure/foam/seeds/seeds.h"
 #include "strut/segment_set.h"
 
@@ -35,6 +36,8 @@ class EdgeBrick final : public CellData {
   /// The brick whose first cell is `corner`: by the walk over tetrahedra (facet_walk.h), or, where
   /// that gives up, over Voronoi cells.
   EdgeBrick(const FoamSeeds& seeds, CellIndex corner);
+  /// Of such a brick, the edges that some of its seeds own, or all.
+  EdgeBrick(const FoamSeeds& seeds, CellIndex corner, const Owners& owners);
   /// By the walk over Voronoi cells (edge_builder.h), which works for all seeds. The same edges, in
   /// another order within each owner.
   static EdgeBrick by_cells(const FoamSeeds& seeds, CellIndex corner);
@@ -56,6 +59,8 @@ class EdgeBrick final : public CellData {
   Vec3 origin() const { return origin_; }
   /// Returns a copy, edge by edge.
   std::vector<FoamEdge> edges() const;
+  /// Whether it has all edges that these seeds own.
+  bool holds(const Owners& owners) const { return owners_.hold(owners); }
   uint64_t bytes() const override { return sizeof *this + segments_.bytes(); }
 
  private:
@@ -63,6 +68,7 @@ class EdgeBrick final : public CellData {
 
   Vec3 origin_;
   SegmentSet segments_;
+  Owners owners_ = Owners::all(side);
 };
 
 }  // namespace msq

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "structure/foam/edges/owners.h"
+
 namespace msq {
 
 /// Seeds are named by their cells: (z * stride + y) * stride + x, from the first of the halo.
@@ -48,6 +50,7 @@ struct FacetState {
   uint32_t starts[max_side * max_side + 1];
 
   int side;        // of the current brick
+  Owners owners;   // of the edges that are wanted
   int width;       // cells along each axis, with the halo
   int half_width;  // cells before the brick's middle
   double scale[3];

@@ -64,7 +64,7 @@ HWY_INLINE void draw(FacetState& s, Batch& batch) {
   }
 }
 
-/// Among the brick's seeds, by number as in a brick of max_side^3, or else a number with the bit
+/// Among the owners, by number as in a brick of max_side^3, or else a number with the bit
 /// `outside`.
 constexpr uint32_t outside = FacetState::seeds_in_brick;
 HWY_INLINE VU with_number(const FacetState& s, VU seed) {
@@ -74,9 +74,14 @@ HWY_INLINE VU with_number(const FacetState& s, VU seed) {
              y = hn::Sub(hn::And(hn::ShiftRight<4>(seed), mask), halo),
              z = hn::Sub(hn::ShiftRight<8>(seed), halo);
   static_assert(FacetState::max_side == 8);
-  const auto is_out =
-      hn::Ne(hn::And(hn::Or(x, hn::Or(y, z)), hn::Set(d, ~static_cast<uint32_t>(s.side - 1))),
-             hn::Zero(d));
+  // Differences below 0 have all of the upper bits.
+  const auto off = [&](VU at, int k) HWY_ATTR {
+    return hn::Or(hn::Sub(at, hn::Set(d, static_cast<uint32_t>(s.owners.low[k]))),
+                  hn::Sub(hn::Set(d, static_cast<uint32_t>(s.owners.high[k] - 1)), at));
+  };
+  const auto is_out = hn::Ne(hn::And(hn::Or(off(x, 0), hn::Or(off(y, 1), off(z, 2))),
+                                     hn::Set(d, ~uint32_t{FacetState::max_side - 1})),
+                             hn::Zero(d));
   const auto number = hn::Or(x, hn::Or(hn::ShiftLeft<3>(y), hn::ShiftLeft<6>(z)));
   return hn::Or(hn::ShiftLeft<12>(seed), hn::IfThenElse(is_out, hn::Set(d, outside), number));
 }

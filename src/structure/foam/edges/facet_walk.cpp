@@ -290,8 +290,9 @@ void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner, int cells) {
   }
 }
 
-bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner, int cells) {
+bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner, int cells, const Owners& owners) {
   place(seeds, corner, cells);
+  s_.owners = owners;
   std::memset(s_.count, 0, sizeof s_.count);
   std::memset(s_.done, 0, sizeof s_.done);
   std::memset(s_.reached, 0, sizeof s_.reached);
@@ -308,12 +309,16 @@ bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner, int cells) {
     }
     return true;
   };
-  const int half = s_.half_width, middle = (half * stride + half) * stride + half;
-  if (!walk_from(static_cast<uint32_t>(middle))) return false;
-  for (int z = halo; z < halo + cells; ++z)
-    for (int y = halo; y < halo + cells; ++y)
-      for (int x = halo; x < halo + cells; ++x) {
-        const auto seed = static_cast<uint32_t>((z * stride + y) * stride + x);
+  const auto seed_at = [](int x, int y, int z) {
+    return static_cast<uint32_t>(((halo + z) * stride + halo + y) * stride + halo + x);
+  };
+  const auto& [low, high] = owners;
+  const auto middle = [&](int axis) { return (low[axis] + high[axis]) / 2; };
+  if (!walk_from(seed_at(middle(0), middle(1), middle(2)))) return false;
+  for (int z = low[2]; z < high[2]; ++z)
+    for (int y = low[1]; y < high[1]; ++y)
+      for (int x = low[0]; x < high[0]; ++x) {
+        const uint32_t seed = seed_at(x, y, z);
         if (!s_.reached[seed] && !walk_from(seed)) return false;
       }
   return HWY_DYNAMIC_DISPATCH(collect)(s_);

@@ -31,7 +31,11 @@ class FacetWalk {
 
   /// Finds the edges owned by the brick of cells^3 cells whose first is `corner`; cells: `side`, or
   /// 4. Returns false if it cannot prove that it has found all of them.
-  bool build(const FoamSeeds& seeds, CellIndex corner, int cells = side);
+  bool build(const FoamSeeds& seeds, CellIndex corner, int cells = side) {
+    return build(seeds, corner, cells, Owners::all(cells));
+  }
+  /// The edges of some of its seeds.
+  bool build(const FoamSeeds& seeds, CellIndex corner, int cells, const Owners& owners);
 
   /// The result of the last successful build, of a brick of side^3 cells: one run per row of cells
   /// along x, with the edges that the row owns; foam units, from the middle of the brick.

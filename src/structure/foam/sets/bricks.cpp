@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/foam/sets/bricks.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "base/borrowed.h"
 #include "structure/common/grid_boxes.h"
 
@@ -32,21 +36,61 @@ CellIndex cell_of_brick(const FoamData& foam, CellIndex corner) {
   return has_equal_bricks(foam) ? CellIndex{} : corner;
 }
 
+/// The seeds of a brick that may own edges that touch a box (grid coordinates), as far as the
+/// grid's axis `axis` tells.
+Owners owners_near(const FoamData& foam, CellIndex corner, const Box3& box, int axis) {
+  const double size = foam.neighbourhood().cell_size[axis];
+  const double first = axis == 0 ? corner.x : axis == 1 ? corner.y : corner.z;
+  const double around = foam.owner_distance() + foam.owner_reach()[axis];
+  const auto cell = [&](double g) {
+    return static_cast<int>(std::clamp(std::floor(g / size) - first, 0.0, EdgeBrick::side - 1.0));
+  };
+  Owners owners = Owners::all(EdgeBrick::side);
+  owners.low[axis] = cell(box.min[axis] - around);
+  owners.high[axis] = cell(box.max[axis] + around) + 1;
+  return owners;
+}
+
+CellCache::Data fetch_brick(const FoamData& foam, CellIndex corner) {
+  return foam.context().cache.fetch(foam.id(), cell_of_brick(foam, corner),
+                                    [&] { return foam.graph().make_brick(corner); });
+}
+
+/// The brick, or a part of it that has the edges that touch the box. Tiles of a layer share parts.
+CellCache::Data fetch_brick_of_layer(const FoamData& foam, CellIndex corner, const Box3& box,
+                                     int thin_axis) {
+  // Deeper parts take about as long as the brick.
+  constexpr int max_depth = EdgeBrick::side - 2;
+  CellCache& cache = foam.context().cache;
+  const Owners owners = owners_near(foam, corner, box, thin_axis);
+  if (owners.high[thin_axis] - owners.low[thin_axis] > max_depth || cache.keeps(foam.id(), corner))
+    return fetch_brick(foam, corner);
+  CellCache::Data part = cache.fetch(foam.brick_parts_id(), corner,
+                                     [&] { return foam.graph().make_part(corner, owners); });
+  return static_cast<const EdgeBrick&>(*part).holds(owners) ? part : fetch_brick(foam, corner);
+}
+
 }  // namespace
 
-void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
+void for_each_brick(const FoamData& foam, const Box3& box, int thin_axis, const Job* job,
                     const std::function<void(const BrickPart&)>& visit) {
   const Neighbourhood& grid = foam.neighbourhood();
   const FoamGraph& graph = foam.graph();
   const double unit = foam.unit();
   const bool are_equal = has_equal_bricks(foam);
+  int thin_in_grid = -1;
+  if (thin_axis >= 0 && !are_equal && graph.has_parts()) {
+    const std::array<int, 3> axes = grid.sample_axes();
+    for (int axis = 0; axis < 3; ++axis)
+      if (axes[static_cast<size_t>(axis)] == thin_axis) thin_in_grid = axis;
+  }
   CellCache::Data data;
   for_each_corner(foam, box, [&](CellIndex corner, const Box3& near) {
     check_cancelled(job);
     if (!are_equal) data.reset();
     if (!data)
-      data = foam.context().cache.fetch(foam.id(), cell_of_brick(foam, corner),
-                                        [&] { return graph.make_brick(corner); });
+      data = thin_in_grid < 0 ? fetch_brick(foam, corner)
+                              : fetch_brick_of_layer(foam, corner, near, thin_in_grid);
     const auto& brick = static_cast<const EdgeBrick&>(*data);
     const Vec3 origin =
         Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
@@ -74,7 +118,7 @@ void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure:
   const Box3 reach = box.grown(radius + foam.graph().brick_error() * foam.unit());
   SegmentSelection selection;
   const Borrowed<StrutBatch> batch;
-  for_each_brick(foam, reach, job, [&](const BrickPart& part) {
+  for_each_brick(foam, reach, -1, job, [&](const BrickPart& part) {
     selection.select(part.brick.segments(), part.wanted);
     for (size_t first = 0; first < selection.count(); first += StrutBatch::capacity) {
       selection.place(part.frame, first, *batch);
