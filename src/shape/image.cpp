@@ -106,9 +106,7 @@ Image::Image(const Source& source, const ImageFrame& frame, std::shared_ptr<Memo
     // Within a cell, the slope along an axis is a mean of those of its edges.
     lipschitz_ = lipschitz_of(steepest(values, size_, job));
   });
-  // Each of seven interpolations loses at most five units of 2^-53 of the largest sample, three in
-  // a row.
-  value_slack_ = 0x1p-48 * std::max(std::abs(range_.low), std::abs(range_.high));
+  value_slack_ = value_slack(std::max(std::abs(range_.low), std::abs(range_.high)));
 }
 
 double Image::value(Vec3 u) const {

@@ -54,6 +54,9 @@ class Image {
   void describe(HashInput& input) const;
   /// Bound of the rounding error of value(), at the same coordinates.
   double value_slack() const { return value_slack_; }
+  /// The same where no sample around exceeds a magnitude: each of seven interpolations loses at
+  /// most five units of 2^-53 of it, three in a row.
+  static double value_slack(double largest) { return 0x1p-48 * largest; }
   /// Lipschitz constant in model units, of the function without rounding.
   double lipschitz() const { return lipschitz_; }
   /// The same for the function in a box.

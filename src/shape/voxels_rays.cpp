@@ -26,7 +26,6 @@ class Voxels::RayWalk {
         along_(image_.frame().rotation.apply_inverse(ray.direction) * image_.scale()) {
     const double reach = max_magnitude(voxels.bounds().min) + max_magnitude(voxels.bounds().max);
     position_slack_ = image_.position_slack(reach + max_magnitude(ray.origin));
-    slack_ = 4 * image_.value_slack() + 2 * image_.lipschitz() * position_slack_;
     sign_ = (voxels.solid_ == Solid::above) == wanted ? 1 : -1;
   }
 
@@ -130,6 +129,7 @@ class Voxels::RayWalk {
     if (!(to > from)) return false;
     double v[8];  // bit 0: x, 1: y, 2: z
     image_.corners(cell, v);
+    slack_ = slack_of(v);
     bool may_be = false;
     for (double& value : v) {
       value = sign_ * (value - voxels_.threshold_);
@@ -154,6 +154,22 @@ class Voxels::RayWalk {
       }
     const Cubic cubic{v[0], (v[1] + v[2] + v[4]) / 3, (v[3] + v[5] + v[6]) / 3, v[7]};
     return find_in(cubic, from, to, t);
+  }
+
+  /// By how much the values of a cubic may be off in the cell with these corners. That of the whole
+  /// image would be too much where another cell has a value of great magnitude, as for missing
+  /// data.
+  double slack_of(const double (&corners)[8]) const {
+    double largest = 0, steepest2 = 0;
+    for (const double value : corners) largest = std::max(largest, std::abs(value));
+    for (int axis = 0; axis < 3; ++axis) {
+      double most = 0;
+      for (int i = 0; i < 8; ++i)
+        if (!(i >> axis & 1)) most = std::max(most, std::abs(corners[i | 1 << axis] - corners[i]));
+      const double slope = most * image_.scale()[axis];
+      steepest2 += slope * slope;
+    }
+    return 4 * Image::value_slack(largest) + 2 * std::sqrt(steepest2) * position_slack_;
   }
 
   /// Finds the start of the first part of [from, to] that is wanted.
@@ -235,7 +251,7 @@ class Voxels::RayWalk {
   const double tolerance_;
   const Vec3 origin_, along_;  // in voxels
   double position_slack_ = 0;  // in model units
-  double slack_ = 0;           // of values, as the cubics have them
+  double slack_ = 0;           // of values in the current cell, as the cubics have them
   double sign_ = 1;
 };
 

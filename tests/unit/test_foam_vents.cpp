@@ -2,6 +2,7 @@
 // Holes through the walls of closed-cell foams. tests/unit/test_foam_walls_voropp.cpp compares
 // their definition with voro++.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -54,6 +55,21 @@ void test_without_jitter(void**) {
       if (std::abs(onset - 0.2) > 1e-12) assert_int_equal(walls->inside(p), onset < 0.2);
     }
     assert_true((holes > 0) == (radius < 0.565));
+  }
+}
+
+/// Beyond the limit of the thickness no wall is sought.
+void test_onsets_end_at_the_limit(void**) {
+  for (const double jitter : {0.0, 1.0}) {
+    const auto walls = make_walls(0.2, 0.45, jitter);
+    Random random(6);
+    size_t known = 0;
+    for (size_t i = 0; i < test_count(5000); ++i) {
+      const double onset = walls->onset(random.in_box({{-2, -2, -2}, {2, 2, 2}}));
+      known += onset <= walls->onset_limit();
+      assert_true(onset <= walls->onset_limit() * (1 + 1e-8) || std::isinf(onset));
+    }
+    assert_true(known > 0);
   }
 }
 
@@ -261,6 +277,7 @@ void test_rays_go_through_holes_of_uneven_cells(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(test_without_jitter),
+                              cmocka_unit_test(test_onsets_end_at_the_limit),
                               cmocka_unit_test(test_void_is_connected_by_holes),
                               cmocka_unit_test(test_rows_agree_with_points),
                               cmocka_unit_test(test_distances_are_safe),

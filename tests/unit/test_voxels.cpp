@@ -75,6 +75,31 @@ void test_distances_are_near(void**) {
   }
 }
 
+/// A sample of great magnitude, as for missing data, does not make rays pass through solid in cells
+/// that do not have it.
+void test_rays_beside_missing_data(void**) {
+  const ImageSize few{4, 4, 6};
+  Random random(9);
+  for (const double missing : {-9999.0, -3.4e38, 1e100}) {
+    std::vector<double> values;
+    for (uint64_t i = 0; i < 4 * 4 * 6; ++i) values.push_back(random.between(0, 255));
+    values[21] = missing;
+    const ImageFrame frame{{1, -2, 3}, {1.9, 2, 2.9}, skew_rotation()};
+    const Voxels shape(make_image(values, few, frame), 120, Voxels::Solid::above);
+    const Box3 around = shape.bounds().grown(2);
+    for (size_t n = test_count(400); n > 0; --n) {
+      Ray ray{random.in_box(around), {}};
+      if (shape.inside(ray.origin)) continue;
+      ray.direction = random.in_box(shape.bounds()) - ray.origin;
+      double hit = 2;
+      if (!shape.enter(ray, 0, 2, hit, nullptr)) hit = 2;
+      for (int i = 0; i < 400; ++i)
+        if (const double t = hit * (i / 400.0); t < hit - 1e-8 && shape.inside(ray.at(t)))
+          fail_msg("missing data %g: solid at %g of a ray that hits at %g", missing, t, hit);
+    }
+  }
+}
+
 void test_facts(void**) {
   const auto shape = make_ball({{5, -2, 9}, {0.5, 0.25, 2}, {}});
   const ShapeFacts& facts = shape->facts();
@@ -107,9 +132,11 @@ void test_what_has_no_solid_is_refused(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {
-      cmocka_unit_test(test_a_ball), cmocka_unit_test(test_boundary_is_inside),
-      cmocka_unit_test(test_distances_are_near), cmocka_unit_test(test_facts),
-      cmocka_unit_test(test_what_has_no_solid_is_refused)};
+  const CMUnitTest tests[] = {cmocka_unit_test(test_a_ball),
+                              cmocka_unit_test(test_boundary_is_inside),
+                              cmocka_unit_test(test_distances_are_near),
+                              cmocka_unit_test(test_rays_beside_missing_data),
+                              cmocka_unit_test(test_facts),
+                              cmocka_unit_test(test_what_has_no_solid_is_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

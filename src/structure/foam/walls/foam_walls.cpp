@@ -70,8 +70,9 @@ bool FoamWalls::inside(Vec3 p) const {
 NearFace FoamWalls::face_near(Vec3 p) const {
   const Neighbourhood::Located located = neighbourhood().locate(p);
   const Vec3 q = located.fraction * seeds_.seeds().scale();
-  return vents_.exist() ? find_nearest_vented_face(seeds_, vents_, located.cell, q)
-                        : find_nearest_face(seeds_, located.cell, q);
+  if (!vents_.exist()) return find_nearest_face(seeds_, located.cell, q);
+  return find_nearest_vented_face(seeds_, vents_, located.cell, q,
+                                  onset_limit() / unit_ * (1 + 1e-9));
 }
 
 double FoamWalls::onset(Vec3 p) const {

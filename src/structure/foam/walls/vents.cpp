@@ -200,12 +200,13 @@ bool is_in_vented_wall(const NearSeeds& seeds, const Vents& vents, CellIndex cel
 }
 
 NearFace find_nearest_vented_face(const NearSeeds& seeds, const Vents& vents, CellIndex cell,
-                                  Vec3 q) {
+                                  Vec3 q, double limit) {
   const Borrowed<PointWorkspace> borrowed;
   PointWorkspace& work = *borrowed;
   // Cells are within the empty radius of their seeds, so their faces within twice that of q.
-  const double most = 4 * seeds.seeds().empty_radius();
-  for (double tried = 0.5 * seeds.spacing(cell, q);; tried = std::min(most, 2 * tried)) {
+  const double most = std::min(limit, 4 * seeds.seeds().empty_radius());
+  for (double tried = std::min(most, 0.5 * seeds.spacing(cell, q));;
+       tried = std::min(most, 2 * tried)) {
     seeds.find(cell, q, tried, work.near);
     const Vec3 seed = work.near[nearest_of(work.near, q)];
     work.find_planes(seed, q, tried);

@@ -68,7 +68,9 @@ class Vents {
 /// does not hold q.
 bool is_in_vented_wall(const NearSeeds& seeds, const Vents& vents, CellIndex cell, Vec3 q,
                        double thickness);
+/// `limit`, in foam units: walls whose onset is above it are not sought, since a point in the holes
+/// of all near walls would look at many.
 NearFace find_nearest_vented_face(const NearSeeds& seeds, const Vents& vents, CellIndex cell,
-                                  Vec3 q);
+                                  Vec3 q, double limit);
 
 }  // namespace msq
