@@ -2,8 +2,14 @@
 #include "surface/boundary_ways.h"
 
 #include "query/inside_points.h"
+#include "ray/cast.h"
 
 namespace msq {
+
+bool rays_are_coarse(const Model& model, const Scales& resolved, const MeshGrid& grid) {
+  const Ray across{grid.box().min, grid.box().extent()};
+  return way_past_end(model, resolved, across, 1) > 0x1p-11 * grid.pitch();
+}
 
 void halve(const Model& model, const Scales& resolved, std::vector<BoundaryWay>& ways, int rounds,
            const Job* job) {

@@ -136,26 +136,41 @@ void MeshEdges::locate(const std::vector<Part>& parts, uint64_t count, Job* job)
   };
   Job part(job);  // the progress of the call is another
   cast_rays(model_, resolved_, count, fill, take, &part);
-  if (missed.empty()) return;
+  const auto halve_edges = [&](const std::vector<uint64_t>& rays) {
+    std::vector<BoundaryWay> ways;
+    for (const uint64_t ray : rays) {
+      Vec3 from, to;
+      ends(find(ray), from, to);
+      ways.push_back({to, from});
+    }
+    halve(model_, resolved_, ways, rounds_of_edge, job);
+    for (size_t n = 0; n < rays.size(); ++n) {
+      const Place place = find(rays[n]);
+      place.crossing->at = ways[n].middle()[place.axis];
+    }
+  };
   // Rays may overlook what is thinner than their tolerance; the node is inside all the same.
-  std::vector<BoundaryWay> ways;
+  halve_edges(missed);
   for (const uint64_t ray : missed) {
-    Vec3 from, to;
-    ends(find(ray), from, to);
-    ways.push_back({to, from});
-  }
-  halve(model_, resolved_, ways, rounds_of_edge, job);
-  for (size_t n = 0; n < missed.size(); ++n) {
     check_cancelled(job);
-    const Place place = find(missed[n]);
+    const Place place = find(ray);
     Vec3 from, to;
     ends(place, from, to);
-    place.crossing->at = ways[n].middle()[place.axis];
-    Ray ray{from, {}};
-    ray.direction[place.axis] = to[place.axis] > from[place.axis] ? 1 : -1;
+    Ray way{from, {}};
+    way.direction[place.axis] = to[place.axis] > from[place.axis] ? 1 : -1;
     place.crossing->normal = normal_by_membership(
-        [&](Vec3 p) { return model_.inside(p, resolved_); }, ray,
+        [&](Vec3 p) { return model_.inside(p, resolved_); }, way,
         std::abs(place.crossing->at - from[place.axis]), 0x1p-12 * grid.pitch());
+  }
+  if (!rays_are_coarse(model_, resolved_, grid)) return;
+  constexpr size_t at_once = size_t{1} << 16;
+  std::vector<uint64_t> found;
+  std::sort(missed.begin(), missed.end());
+  for (uint64_t ray = 0; ray < count; ++ray) {
+    if (!std::binary_search(missed.begin(), missed.end(), ray)) found.push_back(ray);
+    if (found.size() < at_once && ray + 1 < count) continue;
+    halve_edges(found);
+    found.clear();
   }
 }
 

@@ -182,6 +182,7 @@ void MeshVertices::place_on_boundary(uint64_t from, Job* job) {
   const auto fill = [&](std::span<const uint64_t> rays, RaySearch* searches) {
     for (size_t n = 0; n < rays.size(); ++n) ray_of(from + rays[n], searches[n]);
   };
+  const bool is_coarse = rays_are_coarse(model_, resolved_, grid);
   std::vector<uint64_t> left;
   std::mutex mutex;
   // Where a vertex is put when its ray is known: rays are filled in more than once.
@@ -195,7 +196,7 @@ void MeshVertices::place_on_boundary(uint64_t from, Job* job) {
       const RayHit& hit = hits[n];
       RaySearch search;
       const bool may_move = ray_of(vertex, search);
-      if (hit.scale >= 0 && !hit.starts_inside && may_move) {
+      if (hit.scale >= 0 && !hit.starts_inside && may_move && !is_coarse) {
         const Box3 cell = grid.cell(seed.cell[0], seed.cell[1], seed.cell[2]);
         found[rays[n]] = on_faces(seed, clamped(search.ray.at(hit.t), cell));
         normals_[vertex] = hit.normal;

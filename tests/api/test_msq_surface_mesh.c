@@ -326,6 +326,32 @@ static void too_coarse(void** state) {
   check_model(foam_model, 0.31, 0.4);
 }
 
+/* Where cells are larger than 2^26 pitches, rays are less exact than vertices. */
+static void huge_cells(void** state) {
+  const double sizes[] = {1e8, 1e9};
+  (void)state;
+  for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
+    msq_context* context = make_context();
+    msq_shape* all_space;
+    assert_ok(msq_shape_all_space(context, &all_space));
+    msq_model* model = make_model(context, all_space,
+                                  make_lattice_of(context, MSQ_UNIT_CELL_BCC, sizes[i], 1.3), NULL);
+    msq_surface_def def = surface_def(0.5);
+    def.has_box = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      def.min[axis] = -4.1 + 0.1 * axis;
+      def.max[axis] = 4.3;
+    }
+    surface all = surface_of(model, &def);
+    assert_true(all.vertex_count > 500);
+    assert_manifold(&all);
+    assert_on_boundary(model, &all, def.pitch, def.min, def.max, test_count(3000) + 50);
+    free_surface(&all);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
 static void boxes_cut_and_are_closed(void** state) {
   msq_context* context = make_context();
   msq_shape* all_space;
@@ -415,6 +441,7 @@ int main(void) {
       cmocka_unit_test(nested_scales),
       cmocka_unit_test(noise),
       cmocka_unit_test(noise_at_its_pitch),
+      cmocka_unit_test(huge_cells),
       cmocka_unit_test(regions),
       cmocka_unit_test(too_coarse),
       cmocka_unit_test(boxes_cut_and_are_closed),
