@@ -117,4 +117,9 @@ void Tape::describe(HashInput& input) const {
   }
 }
 
+bool Tape::is_continuous() const {
+  return std::all_of(nodes.begin(), nodes.end(),
+                     [](const Node& node) { return msq::is_continuous(node.op); });
+}
+
 }  // namespace msq

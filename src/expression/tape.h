@@ -60,6 +60,13 @@ constexpr bool is_choice(Op op) {
          op == Op::keep || op == Op::drop || op == Op::floor;
 }
 
+/// Whether the result is defined for all operands, and small changes of them change it by little.
+constexpr bool is_continuous(Op op) {
+  return op <= Op::multiply || op == Op::minimum || op == Op::maximum || op == Op::hypotenuse ||
+         op == Op::negate || op == Op::absolute || op == Op::sine || op == Op::cosine ||
+         op == Op::exponential || op == Op::tangent_hyperbolic;
+}
+
 struct Node {
   Op op = Op::constant;
   uint32_t a = 0, b = 0;  ///< numbers of the operands, which come earlier
@@ -72,6 +79,8 @@ struct Tape {
 
   /// The operations by name. Constants have their sign: 1 / -0 is not 1 / 0.
   void describe(HashInput& input) const;
+  /// Whether no operation has jumps, poles or operands without a result.
+  bool is_continuous() const;
 };
 
 constexpr uint32_t max_tape_nodes = 8192;

@@ -88,7 +88,8 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       ray_program_(onset_),
       sample_axis_(neighbourhood.sample_axes()),
       side_(clusters ? clusters : automatic_clusters(onset_)),
-      repeats_(msq::repeats(onset_)) {
+      repeats_(msq::repeats(onset_)),
+      is_continuous_(onset_.is_continuous() && std::isfinite(level_.lipschitz())) {
   // Steps of rows have the same angles only in cells of one size.
   const bool is_uniform = angles_.is_uniform();
   const bool is_mapped_along = angles_.sampled() && this->neighbourhood().sample_axes()[0] >= 0;

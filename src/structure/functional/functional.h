@@ -82,6 +82,8 @@ class Functional final : public Structure, public RepeatingStructure {
   const RayProgram& ray_program() const { return ray_program_; }
   const Parameter& level() const { return level_; }
   const CellAngles& angles() const { return angles_; }
+  /// Whether onset and level have no jumps, except at borders of cells.
+  bool is_continuous() const { return is_continuous_; }
   /// For each axis, whether the onset is periodic along it by itself.
   const std::array<bool, 3>& repeats() const { return repeats_; }
   /// Built by the first call, on its thread.
@@ -134,6 +136,7 @@ class Functional final : public Structure, public RepeatingStructure {
   int side_;  // of the clusters
   std::optional<TrigonometricForm> form_;
   std::array<bool, 3> repeats_;
+  bool is_continuous_;
   // Frequencies a factor of sqrt(2) apart: 1024 is the largest ratio of cell sizes of a period.
   // Those of warped cells range from what does not matter to the inner radius, if there are so
   // many.

@@ -439,12 +439,13 @@ Vec3 FunctionalRays::checked_normal(const RaySearch& search, Vec3 by_slope,
   const auto leads_out = [&](Vec3 normal) {
     return !inside(p + normal * way) && inside(p - normal * way);
   };
+  // Rays that start inside enter nowhere, and the ends of others have no normal by this scale.
+  if (search.t == search.from && search.from < search.to) return by_slope;
   const bool is_into = dot(by_slope, search.ray.direction) > 0x1p-20;
   bool is_far = false;
   if (!is_into) {
-    // Rays that start inside enter nowhere.
-    const bool starts_inside = search.t == search.from && search.from < search.to;
-    if (starts_inside || solid_.has_steady_distance()) return by_slope;
+    if (dot(by_slope, by_slope) > 0 && (solid_.is_continuous() || solid_.has_steady_distance()))
+      return by_slope;
     is_far = !(std::abs(solid_.onset(p) - level_.at(p)) <= 0x1p-4 * way * steepness);
     if (!is_far && leads_out(by_slope)) return by_slope;
   }
