@@ -312,7 +312,7 @@ bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner, int cells, const
   const auto seed_at = [](int x, int y, int z) {
     return static_cast<uint32_t>(((halo + z) * stride + halo + y) * stride + halo + x);
   };
-  const auto& [low, high] = owners;
+  const auto &low = owners.low, &high = owners.high;
   const auto middle = [&](int axis) { return (low[axis] + high[axis]) / 2; };
   if (!walk_from(seed_at(middle(0), middle(1), middle(2)))) return false;
   for (int z = low[2]; z < high[2]; ++z)
