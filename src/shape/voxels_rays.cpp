@@ -5,8 +5,10 @@
 // Livnat, Hansen and Sloan, "Interactive ray tracing for isosurface rendering", 1998 (cells and
 // their cubics, blocks by minimum and maximum value); Lane and Riesenfeld, "Bounds on a
 // polynomial", 1981 (bisection).
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "shape/voxels.h"
@@ -26,6 +28,8 @@ class Voxels::RayWalk {
         along_(image_.frame().rotation.apply_inverse(ray.direction) * image_.scale()) {
     const double reach = max_magnitude(voxels.bounds().min) + max_magnitude(voxels.bounds().max);
     position_slack_ = image_.position_slack(reach + max_magnitude(ray.origin));
+    // Along each axis a cell's function changes by no more than the range of its corners.
+    slack_of_range_ = 2 * length(image_.scale()) * position_slack_;
     sign_ = (voxels.solid_ == Solid::above) == wanted ? 1 : -1;
   }
 
@@ -160,16 +164,9 @@ class Voxels::RayWalk {
   /// image would be too much where another cell has a value of great magnitude, as for missing
   /// data.
   double slack_of(const double (&corners)[8]) const {
-    double largest = 0, steepest2 = 0;
-    for (const double value : corners) largest = std::max(largest, std::abs(value));
-    for (int axis = 0; axis < 3; ++axis) {
-      double most = 0;
-      for (int i = 0; i < 8; ++i)
-        if (!(i >> axis & 1)) most = std::max(most, std::abs(corners[i | 1 << axis] - corners[i]));
-      const double slope = most * image_.scale()[axis];
-      steepest2 += slope * slope;
-    }
-    return 4 * Image::value_slack(largest) + 2 * std::sqrt(steepest2) * position_slack_;
+    const auto [low, high] = std::minmax_element(std::begin(corners), std::end(corners));
+    return 4 * Image::value_slack(std::max(std::abs(*low), std::abs(*high))) +
+           (*high - *low) * slack_of_range_;
   }
 
   /// Finds the start of the first part of [from, to] that is wanted.
@@ -251,6 +248,7 @@ class Voxels::RayWalk {
   const double tolerance_;
   const Vec3 origin_, along_;  // in voxels
   double position_slack_ = 0;  // in model units
+  double slack_of_range_ = 0;  // of values, for each unit between those of a cell's corners
   double slack_ = 0;           // of values in the current cell, as the cubics have them
   double sign_ = 1;
 };

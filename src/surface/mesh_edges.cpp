@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 
 #include "base/ray_normal.h"
 #include "ray/cast.h"
@@ -163,14 +164,12 @@ void MeshEdges::locate(const std::vector<Part>& parts, uint64_t count, Job* job)
         std::abs(place.crossing->at - from[place.axis]), 0x1p-12 * grid.pitch());
   }
   if (!rays_are_coarse(model_, resolved_, grid)) return;
-  constexpr size_t at_once = size_t{1} << 16;
-  std::vector<uint64_t> found;
-  std::sort(missed.begin(), missed.end());
-  for (uint64_t ray = 0; ray < count; ++ray) {
-    if (!std::binary_search(missed.begin(), missed.end(), ray)) found.push_back(ray);
-    if (found.size() < at_once && ray + 1 < count) continue;
-    halve_edges(found);
-    found.clear();
+  constexpr uint64_t at_once = uint64_t{1} << 16;
+  std::vector<uint64_t> some;
+  for (uint64_t first = 0; first < count; first += at_once) {
+    some.resize(std::min(at_once, count - first));
+    std::iota(some.begin(), some.end(), first);
+    halve_edges(some);
   }
 }
 

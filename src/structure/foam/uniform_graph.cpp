@@ -2,6 +2,7 @@
 #include "structure/foam/uniform_graph.h"
 
 #include "structure/foam/edges/edge_brick.h"
+#include "structure/foam/edges/facet_walk.h"
 #include "structure/foam/point/onset.h"
 #include "structure/foam/point/point.h"
 
@@ -17,6 +18,10 @@ double UniformGraph::onset(CellIndex cell, Vec3 q) const {
 
 std::shared_ptr<const EdgeBrick> UniformGraph::make_brick(CellIndex corner) const {
   return std::make_shared<const EdgeBrick>(seeds_, corner);
+}
+
+bool UniformGraph::has_parts() const {
+  return FacetWalk::suits(seeds_);
 }
 
 std::shared_ptr<const EdgeBrick> UniformGraph::make_part(CellIndex corner,

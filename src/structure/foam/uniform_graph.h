@@ -14,7 +14,7 @@ class UniformGraph final : public FoamGraph {
   bool inside(CellIndex cell, Vec3 q, double radius) const override;
   double onset(CellIndex cell, Vec3 q) const override;
   std::shared_ptr<const EdgeBrick> make_brick(CellIndex corner) const override;
-  bool has_parts() const override { return true; }
+  bool has_parts() const override;
   std::shared_ptr<const EdgeBrick> make_part(CellIndex corner, const Owners& owners) const override;
   double brick_error() const override;
 

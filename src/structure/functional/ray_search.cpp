@@ -439,7 +439,8 @@ Vec3 FunctionalRays::checked_normal(const RaySearch& search, Vec3 by_slope,
   const auto leads_out = [&](Vec3 normal) {
     return !inside(p + normal * way) && inside(p - normal * way);
   };
-  // Rays that start inside enter nowhere, and the ends of others have no normal by this scale.
+  // Where a ray starts inside, the hit has another normal: back along the ray, or that of the shape
+  // or scale through which it comes.
   if (search.t == search.from && search.from < search.to) return by_slope;
   const bool is_into = dot(by_slope, search.ray.direction) > 0x1p-20;
   bool is_far = false;

@@ -49,7 +49,6 @@ struct FacetState {
   float bounds[6][max_side * max_side];
   uint32_t starts[max_side * max_side + 1];
 
-  int side;        // of the current brick
   Owners owners;   // of the edges that are wanted
   int width;       // cells along each axis, with the halo
   int half_width;  // cells before the brick's middle

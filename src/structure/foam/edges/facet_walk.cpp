@@ -249,7 +249,6 @@ void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner, int cells) {
   const int size[3] = {cells, cells, cells}, around[3] = {halo, halo, halo};
   tile_.build(seeds, corner, size, around);
   const int width = cells + 2 * halo;
-  s_.side = cells;
   s_.width = width;
   s_.half_width = width / 2;
   const Vec3 scale = seeds.scale();

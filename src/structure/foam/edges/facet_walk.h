@@ -73,9 +73,10 @@ template <class Visit>
 void FacetWalk::for_each_edge(Visit&& visit) const {
   constexpr int halo = FacetState::halo;
   Edge edge;
-  for (edge.owner[2] = 0; edge.owner[2] < s_.side; ++edge.owner[2])
-    for (edge.owner[1] = 0; edge.owner[1] < s_.side; ++edge.owner[1])
-      for (edge.owner[0] = 0; edge.owner[0] < s_.side; ++edge.owner[0]) {
+  const auto& [low, high] = s_.owners;
+  for (edge.owner[2] = low[2]; edge.owner[2] < high[2]; ++edge.owner[2])
+    for (edge.owner[1] = low[1]; edge.owner[1] < high[1]; ++edge.owner[1])
+      for (edge.owner[0] = low[0]; edge.owner[0] < high[0]; ++edge.owner[0]) {
         const auto bucket =
             static_cast<size_t>((edge.owner[2] * side + edge.owner[1]) * side + edge.owner[0]);
         for (size_t i = 0; i < s_.count[bucket]; ++i) {

@@ -21,8 +21,7 @@ bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job
     const double built = (1 - share) * (1 - kept_share_of_bricks(foam, rows.reach()));
     if (!rows.pays(grid, (share + built) * critical)) return false;
   }
-  const int thin_axis = block.layers() == 1 ? 2 : -1;
-  for_each_brick(foam, rows.reach(), thin_axis, job, [&](const BrickPart& part) {
+  for_each_brick(foam, rows.reach(), block.layers() == 1, job, [&](const BrickPart& part) {
     rows.add(part.brick.segments(), part.frame, part.wanted);
   });
   rows.finish(job, [&](Vec3 p) { return foam.inside(p); });

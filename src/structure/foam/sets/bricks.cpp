@@ -58,12 +58,12 @@ CellCache::Data fetch_brick(const FoamData& foam, CellIndex corner) {
 
 /// The brick, or a part of it that has the edges that touch the box. Tiles of a layer share parts.
 CellCache::Data fetch_brick_of_layer(const FoamData& foam, CellIndex corner, const Box3& box,
-                                     int thin_axis) {
+                                     int across) {
   // Deeper parts take about as long as the brick.
   constexpr int max_depth = EdgeBrick::side - 2;
   CellCache& cache = foam.context().cache;
-  const Owners owners = owners_near(foam, corner, box, thin_axis);
-  if (owners.high[thin_axis] - owners.low[thin_axis] > max_depth || cache.keeps(foam.id(), corner))
+  const Owners owners = owners_near(foam, corner, box, across);
+  if (owners.high[across] - owners.low[across] > max_depth || cache.keeps(foam.id(), corner))
     return fetch_brick(foam, corner);
   CellCache::Data part = cache.fetch(foam.brick_parts_id(), corner,
                                      [&] { return foam.graph().make_part(corner, owners); });
@@ -72,25 +72,25 @@ CellCache::Data fetch_brick_of_layer(const FoamData& foam, CellIndex corner, con
 
 }  // namespace
 
-void for_each_brick(const FoamData& foam, const Box3& box, int thin_axis, const Job* job,
+void for_each_brick(const FoamData& foam, const Box3& box, bool is_layer, const Job* job,
                     const std::function<void(const BrickPart&)>& visit) {
   const Neighbourhood& grid = foam.neighbourhood();
   const FoamGraph& graph = foam.graph();
   const double unit = foam.unit();
   const bool are_equal = has_equal_bricks(foam);
-  int thin_in_grid = -1;
-  if (thin_axis >= 0 && !are_equal && graph.has_parts()) {
+  int across = -1;  // the axis of the grid across the layer; -1: all of each brick
+  if (is_layer && graph.has_parts()) {
     const std::array<int, 3> axes = grid.sample_axes();
     for (int axis = 0; axis < 3; ++axis)
-      if (axes[static_cast<size_t>(axis)] == thin_axis) thin_in_grid = axis;
+      if (axes[static_cast<size_t>(axis)] == 2) across = axis;
   }
   CellCache::Data data;
   for_each_corner(foam, box, [&](CellIndex corner, const Box3& near) {
     check_cancelled(job);
     if (!are_equal) data.reset();
     if (!data)
-      data = thin_in_grid < 0 ? fetch_brick(foam, corner)
-                              : fetch_brick_of_layer(foam, corner, near, thin_in_grid);
+      data =
+          across < 0 ? fetch_brick(foam, corner) : fetch_brick_of_layer(foam, corner, near, across);
     const auto& brick = static_cast<const EdgeBrick&>(*data);
     const Vec3 origin =
         Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
@@ -118,7 +118,7 @@ void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure:
   const Box3 reach = box.grown(radius + foam.graph().brick_error() * foam.unit());
   SegmentSelection selection;
   const Borrowed<StrutBatch> batch;
-  for_each_brick(foam, reach, -1, job, [&](const BrickPart& part) {
+  for_each_brick(foam, reach, false, job, [&](const BrickPart& part) {
     selection.select(part.brick.segments(), part.wanted);
     for (size_t first = 0; first < selection.count(); first += StrutBatch::capacity) {
       selection.place(part.frame, first, *batch);

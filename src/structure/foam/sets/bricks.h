@@ -18,10 +18,10 @@ struct BrickPart {
 };
 
 /// Calls visit(part) for each brick that may have edges that touch a box (model coordinates).
-/// thin_axis: -1, or an axis along which the box is that of a single layer. A brick that the cache
-/// lacks is then built only as deep as the layer needs, the first time: layers here and there
-/// rarely need the rest. When another layer needs the brick, all of it is built.
-void for_each_brick(const FoamData& foam, const Box3& box, int thin_axis, const Job* job,
+/// is_layer: the box is that of a single layer of samples. A brick that the cache lacks is then
+/// built only as deep as the layer needs, the first time: layers here and there rarely need the
+/// rest. When another layer needs the brick, all of it is built.
+void for_each_brick(const FoamData& foam, const Box3& box, bool is_layer, const Job* job,
                     const std::function<void(const BrickPart&)>& visit);
 
 /// The share of these bricks that the cell cache keeps: 0 to 1. Does not change the cache.
