@@ -89,14 +89,16 @@ double bisect(double before, double beyond, double tolerance, IsBeyond&& is_beyo
 }
 
 /// Corrects a computed entry t by membership. Sets t to the first point at which the ray is inside,
-/// near t, at most `tolerance` past the change and not before `from`. Returns false if there is
-/// none (a graze caused by rounding). If a ray grazes a boundary, the error of t is much larger
-/// than rounding; then a few steps of growing length search for the change.
+/// near t, at most `tolerance` past the change, not before `from` and not past `to`. Returns false
+/// if there is none (a graze caused by rounding). If a ray grazes a boundary, the error of t is
+/// much larger than rounding; then a few steps of growing length search for the change.
 template <class Inside>
-bool settle_entry(const Ray& ray, double from, double tolerance, Inside&& inside, double& t) {
+bool settle_entry(const Ray& ray, double from, double to, double tolerance, Inside&& inside,
+                  double& t) {
   if (!inside(ray.at(t))) {
-    if (!inside(ray.at(t + tolerance))) return false;
-    t += tolerance;
+    const double beyond = std::min(t + tolerance, to);
+    if (!inside(ray.at(beyond))) return false;
+    t = beyond;
     return true;
   }
   double within = t;

@@ -157,7 +157,7 @@ class RegionCaster {
     if (hit.starts_inside && !is_first) {
       // It comes from another region, or from none: where exactly, membership tells.
       settle_entry(
-          way.ray, way.known_void, tolerance_,
+          way.ray, way.known_void, infinity, tolerance_,
           [this](Vec3 p) { return model_.inside(p, resolved_); }, t);
       hit.starts_inside = false;
       hit.scale = 0;

@@ -83,7 +83,7 @@ bool PlacedShape::follow(const Ray& ray, double from, double to, double first, d
   LeastStep least(tolerance, tolerance, from);
   for (double at = from;;) {
     t = std::clamp(first / factor, at, to);
-    if (settle_entry(ray, at, tolerance, is_in, t)) return true;
+    if (settle_entry(ray, at, to, tolerance, is_in, t)) return true;
     const double out = std::min(to, original_->leave(mapped, first, to * factor, job) / factor);
     const double middle = 0.5 * (t + out);
     if (middle > t && is_in(ray.at(middle))) {

@@ -36,10 +36,10 @@ bool clip_to_quadratic(double a, double b, double c, double& from, double& to) {
 /// Finds where a ray enters and leaves a shape, given the section of the ray, [low, high], up to
 /// rounding, and membership. Returns false if there is nothing but rounding.
 template <class Inside>
-bool cross_section(const Ray& ray, double from, double low, double high, double tolerance,
-                   Inside&& is_in, double& t, double& end) {
+bool cross_section(const Ray& ray, double from, double to, double low, double high,
+                   double tolerance, Inside&& is_in, double& t, double& end) {
   t = low;
-  if (!settle_entry(ray, from, tolerance, is_in, t)) {
+  if (!settle_entry(ray, from, to, tolerance, is_in, t)) {
     // A graze: rounding moves the ends of a section much more than its middle.
     const double middle = 0.5 * (low + high);
     if (!(middle > low) || !is_in(ray.at(middle))) return false;
@@ -61,7 +61,7 @@ bool Primitive::cross(const Ray& ray, double from, double to, double& t, double&
   const auto is_in = [this](Vec3 p) { return inside(p); };
   double low = from, high = to;
   return section(ray, 0, low, high) &&
-         cross_section(ray, from, low, high, ray_tolerance(), is_in, t, end);
+         cross_section(ray, from, to, low, high, ray_tolerance(), is_in, t, end);
 }
 
 bool BoxShape::cross(const Ray& ray, double from, double to, double& t, double& end,
@@ -70,7 +70,7 @@ bool BoxShape::cross(const Ray& ray, double from, double to, double& t, double& 
   const auto is_in = [&box](Vec3 p) { return box.contains(p); };
   double low = from, high = to;
   return clip_to_box(ray, box, low, high) &&
-         cross_section(ray, from, low, high, ray_tolerance(), is_in, t, end);
+         cross_section(ray, from, to, low, high, ray_tolerance(), is_in, t, end);
 }
 
 double Primitive::leave(const Ray& ray, double from, double to, const Job*) const {

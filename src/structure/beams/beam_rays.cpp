@@ -31,7 +31,7 @@ bool BeamRays::settle(const BeamPart& part, const Ray& ray, double enter, double
                       double to, double& t) const {
   const auto holds = [&](Vec3 p) { return part.holds(p); };
   t = std::clamp(enter, from, to);
-  if (settle_entry(ray, from, tolerance_, holds, t)) return true;
+  if (settle_entry(ray, from, to, tolerance_, holds, t)) return true;
   // Formulas may be too early, by much if the ray grazes the part or runs along it. In a slender
   // one the ray may end before the middle would be inside.
   const double first = t, last = std::min(leave, to);

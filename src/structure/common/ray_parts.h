@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "base/infinity.h"
+#include "base/ray.h"
 
 namespace msq {
 
@@ -20,14 +21,18 @@ struct RayParts {
 };
 
 /// Moves an end of a part, which rounding may have put outside of the region, towards `end`, until
-/// holds(t). Infinite, away from `end`, if no point of the region is found.
+/// holds(t): at most `tolerance` past the change. Infinite, away from `end`, if no point of the
+/// region is found.
 template <class Holds>
 double settle_end(double t, double end, double tolerance, Holds&& holds) {
+  if (holds(t)) return t;
   const double sign = end < t ? -1 : 1;
-  for (double step = 0.25 * tolerance; sign * (end - t) >= 0; step *= 2) {
-    if (holds(t)) return t;
-    if (t == end) break;
-    t = sign > 0 ? std::min(end, t + step) : std::max(end, t - step);
+  for (double step = 0.25 * tolerance; t != end; step *= 2) {
+    const double next = sign > 0 ? std::min(end, t + step) : std::max(end, t - step);
+    if (holds(next))
+      return sign *
+             bisect(sign * t, sign * next, tolerance, [&](double s) { return holds(sign * s); });
+    t = next;
   }
   return sign * infinity;
 }

@@ -226,7 +226,7 @@ void FoamWalls::enter(RaySearch& search, const Job* job) const {
     const WallRay::Way way = wall.find(ray, from, search.to, tolerance, t);
     if (way == WallRay::Way::passes) return;
     if (way == WallRay::Way::unknown) break;
-    if (settle_entry(ray, search.from, tolerance, is_inside, t)) {
+    if (settle_entry(ray, search.from, search.to, tolerance, is_inside, t)) {
       search.found = true;
       search.t = t;
       return;
@@ -270,7 +270,7 @@ void FoamWalls::enter_vented(RaySearch& search, const Job* job) const {
     from = end;
     if (!vent.find(ray, t, end, met)) continue;
     const double first = std::max(search.from, t);
-    if (settle_entry(ray, first, tolerance, is_inside, met)) {
+    if (settle_entry(ray, first, search.to, tolerance, is_inside, met)) {
       search.found = true;
       search.t = met;
       return;

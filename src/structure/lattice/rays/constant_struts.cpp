@@ -153,8 +153,9 @@ class ConstantStruts {
       }
       return true;
     }
-    if (is_in(is_short, strut, ray.at(t + tolerance_))) {
-      t += tolerance_;
+    if (const double beyond = std::min(t + tolerance_, to);
+        is_in(is_short, strut, ray.at(beyond))) {
+      t = beyond;
       return true;
     }
     const double middle = 0.5 * (enter + leave);

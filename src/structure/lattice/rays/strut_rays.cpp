@@ -209,7 +209,7 @@ bool StrutRays::enter_strut(const Ray& ray, const Part& part, const Candidate& c
     if (!approach(ray, part, candidate.strut, is_in, enter, leave)) return false;
   }
   t = enter;
-  if (settle_entry(ray, from, tolerance_, is_in, t)) return true;
+  if (settle_entry(ray, from, to, tolerance_, is_in, t)) return true;
   // Formulas may be too early, by much if the ray grazes the strut or runs along it.
   const double middle = 0.5 * (enter + leave);
   if (!(middle > enter) || !is_in(ray.at(middle))) return false;
