@@ -10,6 +10,7 @@
 #include "field/gradient.h"
 #include "msq_test.h"
 #include "random.h"
+#include "structure/foam/seeds/warp_seeds.h"
 #include "structure/foam/walls/foam_walls.h"
 
 using namespace msq;
@@ -151,7 +152,31 @@ void test_void_is_connected_by_holes(void**) {
   }
 }
 
-/// Rows of samples are the same bits as points.
+/// Rows of samples are the same bits as points, one row in `every` of them. Returns how many
+/// samples holes open.
+size_t check_rows(const FoamWalls& walls, const FoamWalls& plain, const SampleGrid& samples,
+                  uint64_t every) {
+  const uint64_t n = samples.ny, layers = samples.nz;
+  assert_true(samples.nx == 64);
+  std::vector<uint64_t> bits(n * layers, ~uint64_t{0}), plain_bits = bits;
+  RowBlock block{&samples, 0, n, 0, layers, bits.data(), 1, n};
+  walls.keep_rows(block, nullptr);
+  block.words = plain_bits.data();
+  plain.keep_rows(block, nullptr);
+  size_t opened = 0;
+  Random random(8);
+  for (uint64_t k = 0; k < layers; ++k)
+    for (uint64_t j = 0; j < n; ++j) {
+      const uint64_t row = bits[k * n + j], plain_row = plain_bits[k * n + j];
+      assert_true((row & ~plain_row) == 0);
+      opened += static_cast<size_t>(__builtin_popcountll(plain_row & ~row));
+      if (random.below(every) != 0) continue;
+      for (uint64_t i = 0; i < 64; ++i)
+        assert_int_equal(row >> i & 1, walls.inside(samples.at(i, j, k)));
+    }
+  return opened;
+}
+
 void test_rows_agree_with_points(void**) {
   const double c = std::cos(0.7), s = std::sin(0.7);
   const Rotation turned{{c, -s, 0, s, c, 0, 0, 0, 1}};
@@ -166,29 +191,31 @@ void test_rows_agree_with_points(void**) {
       const double cell = min_component(grid.cell_size);
       const auto walls = make_walls(size.thickness * cell, size.radius * cell, size.jitter, grid);
       const auto plain = make_walls(size.thickness * cell, 0, size.jitter, grid);
-      constexpr int n = 64, layers = 24;
       const double step = 1.0 / 23.7;
-      const SampleGrid samples{{-0.7, 0.4, 1.1}, {step, step * 0.9, step * 1.1}, n, n, layers};
-      std::vector<uint64_t> bits(size_t{n} * layers, ~uint64_t{0}), plain_bits = bits;
-      RowBlock block{&samples, 0, n, 0, layers, bits.data(), 1, n};
-      walls->keep_rows(block, nullptr);
-      block.words = plain_bits.data();
-      plain->keep_rows(block, nullptr);
-      size_t opened = 0;
-      Random random(8);
-      for (uint64_t k = 0; k < layers; ++k)
-        for (uint64_t j = 0; j < n; ++j) {
-          const uint64_t row = bits[k * n + j], plain_row = plain_bits[k * n + j];
-          assert_true((row & ~plain_row) == 0);
-          opened += static_cast<size_t>(__builtin_popcountll(plain_row & ~row));
-          if (random.below(4) != 0) continue;
-          for (uint64_t i = 0; i < n; ++i)
-            assert_int_equal(row >> i & 1, walls->inside(samples.at(i, j, k)));
-        }
+      const SampleGrid samples{{-0.7, 0.4, 1.1}, {step, step * 0.9, step * 1.1}, 64, 64, 24};
+      const size_t opened = check_rows(*walls, *plain, samples, 4);
       print_message("thickness %g, holes of %g, jitter %g: %zu samples opened\n", size.thickness,
                     size.radius, size.jitter, opened);
       assert_true(opened > 0 || size.radius < 0.1);
     }
+}
+
+/// The same of seeds in octrees and in warped cells: faces of unlike sizes.
+void test_rows_of_uneven_seeds_agree_with_points(void**) {
+  const Ref<const Field> gradient = make_ref<GradientField>(Vec3{0, 0, 0}, 1, Vec3{2, 0, 0}, 12);
+  const auto placed = std::make_shared<const WarpSeeds>(
+      Warp{Warp::Kind::cylindrical, Neighbourhood{}, {12, 0, 0.8, 2.6}}, 1.0, uint64_t{3});
+  for (const bool is_warped : {false, true}) {
+    const auto make = [&](double vent_radius) {
+      return make_ref<FoamWalls>(context(), Neighbourhood{}, Parameter(0.06), 1.0, uint64_t{3},
+                                 is_warped ? Parameter(1) : Parameter(gradient),
+                                 Parameter(vent_radius), Vec3{1, 1, 1}, 0.0,
+                                 is_warped ? placed : nullptr);
+    };
+    const double step = 1.0 / 40.3;
+    const SampleGrid samples{{0.5, 0.4, 0.3}, {step, step, step}, 64, 64, 48};
+    assert_true(check_rows(*make(0.12), *make(0), samples, 1) > 100);
+  }
 }
 
 /// Steps of the bound from a point never change membership, and bounds of near points agree.
@@ -280,6 +307,7 @@ int main() {
                               cmocka_unit_test(test_onsets_end_at_the_limit),
                               cmocka_unit_test(test_void_is_connected_by_holes),
                               cmocka_unit_test(test_rows_agree_with_points),
+                              cmocka_unit_test(test_rows_of_uneven_seeds_agree_with_points),
                               cmocka_unit_test(test_distances_are_safe),
                               cmocka_unit_test(test_rays_go_through_holes),
                               cmocka_unit_test(test_rays_go_through_holes_of_uneven_cells)};

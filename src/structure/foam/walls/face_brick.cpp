@@ -26,6 +26,20 @@ void add_face(Vec3 apart, std::vector<FaceBrick::Face>& faces) {
                    static_cast<float>(0.5 * distance)});
 }
 
+/// The face towards each neighbour, cut by the planes of the others. Positions are from the seed,
+/// whose cell is within `empty_radius`.
+void add_areas(const std::vector<Vec3>& neighbours, double empty_radius, FacePolygon& polygon,
+               std::vector<WallFace>& areas) {
+  for (const Vec3& face : neighbours) {
+    polygon.start({}, face, empty_radius * (1 + 1e-9));
+    for (const Vec3& other : neighbours) {
+      if (polygon.is_empty()) break;
+      if (!(other == face)) polygon.cut(other);
+    }
+    areas.push_back(polygon.face());
+  }
+}
+
 class FaceBuilder {
  public:
   /// `areas`: null where they are not wanted. `stretch`: of the cells, or null; not with areas.
@@ -46,7 +60,7 @@ class FaceBuilder {
           high_ = low_ * -1.0;
           if (!find_by_walk(own) && !find_by_cuts(own)) take_all();
           add(cells_.block().position(own), cells, faces);
-          if (areas) add_areas(*areas);
+          if (areas) add_areas(planes_, cells_.empty_radius(), polygon_, *areas);
         }
       }
   }
@@ -118,17 +132,6 @@ class FaceBuilder {
     const Vec3 n = normal * (1 / size);
     faces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
                      static_cast<float>(0.5 * dot(apart, apart) / size)});
-  }
-
-  void add_areas(std::vector<WallFace>& areas) {
-    for (const Vec3& face : planes_) {
-      polygon_.start({}, face, cells_.empty_radius() * (1 + 1e-9));
-      for (const Vec3& other : planes_) {
-        if (polygon_.is_empty()) break;
-        if (!(other == face)) polygon_.cut(other);
-      }
-      areas.push_back(polygon_.face());
-    }
   }
 
   BrickCells cells_;
@@ -260,7 +263,8 @@ FaceBrick::FaceBrick(Weighted, const FoamSeeds& seeds, CellIndex corner) {
   builder->build(seeds, corner, cells_, faces_);
 }
 
-FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner) {
+FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner,
+                     bool with_areas) {
   // The density field may be the host's, which may call msq again.
   const Borrowed<GradedCells> borrowed;
   GradedCells& graded = *borrowed;
@@ -273,6 +277,8 @@ FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex 
         graded.append_seeds({corner.x + x, corner.y + y, corner.z + z}, owners);
   cells_.reserve(owners.size());
   faces_.reserve(owners.size() * 17);
+  if (with_areas) areas_.reserve(faces_.capacity());
+  FacePolygon polygon;
   std::vector<Vec3> neighbours;
   for (const LeafSeed& own : owners) {
     check_cancelled();
@@ -282,6 +288,7 @@ FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex 
     Cell cell{own.position, {}, {}, static_cast<uint32_t>(faces_.size()), 0};
     cell.set_box(box);
     for (const Vec3& apart : neighbours) add_face(apart, faces_);
+    if (with_areas) add_areas(neighbours, seeds->cells().empty_radius(), polygon, areas_);
     cell.count = static_cast<uint32_t>(faces_.size()) - cell.first;
     cells_.push_back(cell);
   }

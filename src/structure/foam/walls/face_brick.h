@@ -41,8 +41,8 @@ class FaceBrick final : public CellData {
   /// Of weighted seeds (seeds/seeds.h); without areas. Seeds without a cell are left out.
   struct Weighted {};
   FaceBrick(Weighted, const FoamSeeds& seeds, CellIndex corner);
-  /// Of graded seeds (seeds/graded_seeds.h), in the cells of their brick; without areas.
-  FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner);
+  /// Of graded seeds (seeds/graded_seeds.h), in the cells of their brick.
+  FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner, bool with_areas);
   /// Of stretched cells; without areas.
   FaceBrick(const Stretch& stretch, CellIndex corner);
 

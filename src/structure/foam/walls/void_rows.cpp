@@ -278,7 +278,6 @@ class BlockVoids {
 
 bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* job) {
   const std::shared_ptr<const GradedSeeds>& graded = walls.seeds().graded();
-  if (graded && walls.vents().exist()) return false;
   const Borrowed<VoidRowsWorkspace> workspace;
   BlockVoids voids(walls, block, *workspace);
   if (voids.is_empty()) return true;
@@ -290,6 +289,7 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   const double around = stretch ? 0 : seeds.empty_radius() * walls.unit() * (1 + 1e-9);
   const Vec3 beyond = stretch ? stretch->reach() * walls.unit() : Vec3{};
   // Without jitter, one brick serves for all.
+  const bool has_vents = walls.vents().exist();
   const bool are_equal = seeds.jitter() == 0 && !seeds.is_weighted() && !graded;
   const int side = graded ? graded->brick_side() : FaceBrick::side,
             lead = graded ? 0 : FaceBrick::lead;
@@ -302,11 +302,11 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
         if (!are_equal) brick.reset();
         if (!brick)
           brick = walls.context().cache.fetch(walls.id(), are_equal ? CellIndex{} : corner, [&] {
-            if (graded) return std::make_shared<const FaceBrick>(graded, corner);
+            if (graded) return std::make_shared<const FaceBrick>(graded, corner, has_vents);
             if (stretch) return std::make_shared<const FaceBrick>(*stretch, corner);
             if (seeds.is_weighted())
               return std::make_shared<const FaceBrick>(FaceBrick::Weighted{}, seeds, corner);
-            return std::make_shared<const FaceBrick>(seeds, corner, walls.vents().exist());
+            return std::make_shared<const FaceBrick>(seeds, corner, has_vents);
           });
         voids.take(static_cast<const FaceBrick&>(*brick), corner);
         if (voids.has_many_doubts()) voids.decide(job);
