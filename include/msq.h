@@ -27,8 +27,8 @@
  *
  * Definitions. A definition is a struct that begins with struct_size. X_def_init(&def, sizeof def)
  * sets struct_size and all defaults, and writes no byte past the given size. If the struct is
- * larger than the library's, its excess bytes must be 0. Sizes below that of version 0.2 and sizes
- * above 4096 are refused.
+ * larger than the library's, its excess bytes must be 0. Sizes too small for any version of the
+ * struct and sizes above 4096 are refused.
  *
  * Reports. A report is a struct that msq fills in. The caller sets its struct_size. msq writes no
  * byte past that size, and sets bytes of unknown fields to 0.
@@ -3165,8 +3165,8 @@ typedef struct msq_fill_def {
   /** In model units. Slicers take the middle of the layer. Default 0. */
   double z;
   /** Maximum distance between the lines and the middle of the walls, in model units, before
-   * rounding to the coordinates. At least half a unit of the coordinates. 0 (default): 1/200 of the
-   * smallest cell size. */
+   * rounding to the coordinates. Less than half a unit of the coordinates gains nothing. 0
+   * (default): 1/200 of the smallest cell size. */
   double tolerance;
   /** In model units. Shorter paths are dropped. Shorter lines between two points where an odd
    * number of lines meet are dropped too: each saves a path. If min_length is at most the width of

@@ -1480,7 +1480,7 @@ export interface msq_fill_def {
   origin: ArrayLike<number>;
   /** In model units. Slicers take the middle of the layer. Default 0. */
   z: number;
-  /** Maximum distance between the lines and the middle of the walls, in model units, before rounding to the coordinates. At least half a unit of the coordinates. 0 (default): 1/200 of the smallest cell size. */
+  /** Maximum distance between the lines and the middle of the walls, in model units, before rounding to the coordinates. Less than half a unit of the coordinates gains nothing. 0 (default): 1/200 of the smallest cell size. */
   tolerance: number;
   /** In model units. Shorter paths are dropped. Shorter lines between two points where an odd number of lines meet are dropped too: each saves a path. If min_length is at most the width of a printed line, the lines that continue at the two ends still touch. Default 0. */
   min_length: number;

@@ -47,8 +47,8 @@ void give_values(const Image& image, msq_image& def) {
 
 [[noreturn]] void refuse(const char* what) {
   fail(Status::unsupported,
-       "%s is computed by the host, or has more beams than msq keeps the definition of; it cannot "
-       "be written",
+       "%s is computed by the host, or is too large for msq to keep its definition; it cannot be "
+       "written",
        what);
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/structure.h"
 
+#include "field/field.h"
 #include "structure/common/sampled_rows.h"
+#include "structure/common/strut_distance_bound.h"
 #include "structure/common/struts.h"
 
 #include "base/ray_normal.h"
@@ -19,13 +21,26 @@ void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
 }
 
+double Structure::min_ray_step() const {
+  const Parameter* const parameter = sloped_parameter();
+  return parameter && parameter->lipschitz() < infinity
+             ? ray_tolerance()
+             : min_component(neighbourhood().cell_size) / 64;
+}
+
 bool Structure::march(bool wanted, const Ray& ray, double from, double to, double& t,
                       const Job* job) const {
   const double tolerance = ray_tolerance(ray, to);
-  const RayMarch steps{std::max(min_ray_step(), tolerance), tolerance};
+  const double coarse = std::max(min_ray_step(), tolerance);
+  const Parameter* const parameter = sloped_parameter();
+  const RayMarch steps{parameter ? tolerance : coarse, tolerance};
   return steps.find(
       wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-      [this](Vec3 p) { return distance_bound(p); }, t, job);
+      [&](Vec3 p) {
+        const double bound = distance_bound(p);
+        return parameter ? steady_ray_step(bound, coarse, *parameter, p) : bound;
+      },
+      t, job);
 }
 
 void Structure::enter(RaySearch* searches, size_t count, const Job* job) const {

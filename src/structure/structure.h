@@ -25,6 +25,7 @@ namespace msq {
 
 enum class BoxClass { mixed, outside, inside };
 
+class Parameter;
 class StrutParts;
 struct StrutSelection;
 
@@ -143,9 +144,12 @@ class Structure : public Described {
         std::max(max_coordinate(ray, to), max_coordinate(ray, to, neighbourhood_.origin));
     return std::max(ray_tolerance(), coordinate_rounding(max));
   }
+  /// The radius or the thickness, if distance_bound() takes its slope into account: 0 where it has
+  /// none. Null: no such parameter.
+  virtual const Parameter* sloped_parameter() const { return nullptr; }
   /// The minimum step of rays that march, for any value of distance_bound(). Steps are smaller only
-  /// if distance_bound() is 0 only on the boundary.
-  virtual double min_ray_step() const { return min_component(neighbourhood().cell_size) / 64; }
+  /// where distance_bound() is 0 only on the boundary.
+  virtual double min_ray_step() const;
 
   /// Whether wall_lines() finds anything.
   virtual ThinWalls thin_walls() const { return ThinWalls::none; }

@@ -185,7 +185,7 @@ class Query(Case):
         np.save(npy, points)
         self.msq("query", BOX, npy, *FOAM, "-o", self.folder / "out.npy")
         self.assertTrue((np.load(self.folder / "out.npy") == FOAM_MODEL.contains(points)).all())
-        text = self.msq("query", BOX, "-", *FOAM, input="# a remark\n\n1,1,1\n +2 ,2,2,more\n")
+        text = self.msq("query", BOX, "-", *FOAM, input="# a remark\n\n1,1,1\n +2 ,2,2\n")
         self.assertEqual(text.split("\n")[1][:5], "1,1,1")
         self.assertEqual(len(text.split("\n")), 4)
         self.assertEqual(self.msq("query", BOX, "-", input=""), "x,y,z,membership\n")
@@ -198,12 +198,16 @@ class Query(Case):
         for text, given in (("line 2: 'a' is not a finite number", "1,2,3\na,2,3\n"),
                             ("line 1: 'nan' is not a finite number", "nan,2,3\n1,2,3\n"),
                             ("line 1: 'b' is not a finite number", "1,b,3\n1,2,3\n"),
-                            ("line 1: 2 columns, and a point needs 3", "1,2\n"),
+                            ("line 1: 2 columns, and a point has 3", "1,2\n"),
+                            ("line 1: 6 columns, and a point has 3; more need", "1,5,2,0,3,1\n"),
+                            ("line 1: '\"1\"' is not a finite number", '"1","2","3"\n'),
                             ("line 3: 'inf' is not a finite number", "x,y,z\n1,2,3\n1,inf,3\n"),
                             ("line 1: more than 65536 bytes long", "1" * 200000)):
             self.refuse_points(text, given)
         path = self.folder / "points.npy"
-        for text, array in (("the type of its numbers", np.zeros((3, 3), int)),
+        self.assertEqual(self.msq("query", BOX, "-", input="x,y,z,name\n1,1,1,a\n").count("\n"), 2)
+        for text, array in (("the type of its numbers is not <f4 or <f8 but '<i8'\n",
+                             np.zeros((3, 3), "<i8")),
                             ("shape is not (n, 3) but (3, 2)", np.zeros((3, 2))),
                             ("Fortran", np.asfortranarray(np.zeros((3, 3)))),
                             ("point 1: nan", np.array([(0, 0, 0), (0, np.nan, 0)], float))):

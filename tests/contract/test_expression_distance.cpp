@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distances to structures whose parameter is an expression: safe, since membership is the same all
 // over the ball, and of use, where the slope of the expression is known. Rays then meet plates and
-// walls however thin.
+// walls however thin, and gaps however narrow.
 #include "expression/parser.h"
 #include "field/expression.h"
 #include "field/map.h"
@@ -153,10 +153,54 @@ void test_thin_walls(void** state) {
   assert_true(hits > count / 4);
 }
 
+std::vector<Row> rows_of_narrow_gaps() {
+  const std::pair<const char*, Factory> kinds[] = {
+      {"BCC", lattice_factory(bcc_unit_cell())},
+      {"octet", lattice_factory(octet_unit_cell())},
+      {"mixed", mixed_factory()},
+      {"foam", foam_factory(FoamMethod::direct, 1)},
+      {"walls", walls_factory(0)},
+  };
+  std::vector<Row> all;
+  for (const auto& [name, make] : kinds) {
+    // Between thick struts there is little.
+    const std::string size =
+        name == std::string("octet") ? "0.2 + 0.03*sin(x)*cos(y)" : "0.3 + 0.03*sin(x)*cos(y)";
+    all.push_back({name + (", " + size), make, size, {}, 0, 0});
+  }
+  return all;
+}
+
+/// A ray that starts in the solid leaves it at the first gap.
+void test_narrow_gaps(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  constexpr double range = 1, rounding = 1e-9, sample = 1.0 / 512;
+  Random random(5);
+  const Ref<const Field> field =
+      make_ref<ExpressionField>(parse_expression(row.expression, {}), Interval{0.1, 0.4});
+  const Ref<const Structure> structure =
+      row.make({{0.1, -0.2, 0.3}, {1, 1, 1}, {}}, Parameter(field));
+  size_t starts = 0;
+  for (size_t n = 0; n < test_count(6000); ++n) {
+    Vec3 way{random.normal(), random.normal(), random.normal()};
+    way = way * (1 / length(way));
+    const Ray ray{random.in_box({{-3, -3, -3}, {3, 3, 3}}), way};
+    if (!structure->inside(ray.origin)) continue;
+    ++starts;
+    const double end = structure->leave(ray, 0, range, nullptr);
+    for (double t = sample * random.unit(); t < end - rounding; t += sample)
+      if (!structure->inside(ray.at(t)) && !structure->inside(ray.at(t + rounding)) &&
+          !structure->inside(ray.at(std::max(0.0, t - rounding))))
+        fail_msg("ray %zu is in a gap at %g, and leaves at %g", n, t, end);
+  }
+  assert_true(starts > 0);
+}
+
 }  // namespace
 
 int main() {
-  std::vector<Row> all = rows(), thin = rows_of_thin_walls();
+  std::vector<Row> all = rows(), thin = rows_of_thin_walls(), narrow = rows_of_narrow_gaps();
   return run_for_each("distances by expressions", all, test_row) +
-         run_for_each("rays to thin walls", thin, test_thin_walls);
+         run_for_each("rays to thin walls", thin, test_thin_walls) +
+         run_for_each("rays to narrow gaps", narrow, test_narrow_gaps);
 }

@@ -26,7 +26,9 @@ constexpr size_t MAX_LINE = 1 << 16;
 
 // Whether a column may be meant as a number, a wrong one too. Headings are not.
 bool looks_like_number(std::string_view part) {
-  std::string text(trimmed(part));
+  part = trimmed(part);
+  if (part.starts_with('"')) part = trimmed(part.substr(1));
+  std::string text(part);
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   return !text.empty() && (std::strchr("+-.0123456789", text[0]) != nullptr || text == "nan" ||
@@ -131,9 +133,16 @@ class CsvReader : public PointReader {
     const std::vector<std::string_view> parts = split(line, ',');
     const bool is_first = !std::exchange(has_row_, true);
     if (parts.size() < 3) {
-      fail(line_, std::to_string(parts.size()) + " columns, and a point needs 3");
+      fail(line_, std::to_string(parts.size()) + " columns, and a point has 3");
     }
-    if (is_first && std::none_of(parts.begin(), parts.begin() + 3, looks_like_number)) return;
+    if (is_first && std::none_of(parts.begin(), parts.begin() + 3, looks_like_number)) {
+      has_heading_ = true;
+      return;
+    }
+    if (parts.size() > 3 && !has_heading_) {
+      fail(line_, std::to_string(parts.size()) +
+                      " columns, and a point has 3; more need a heading, which names them");
+    }
     double point[3];
     for (size_t i = 0; i < 3; ++i) {
       const std::optional<double> value = to_number(parts[i]);
@@ -151,7 +160,7 @@ class CsvReader : public PointReader {
   std::string text_;
   size_t begin_ = 0;
   uint64_t line_ = 0;
-  bool is_end_ = false, has_row_ = false;
+  bool is_end_ = false, has_row_ = false, has_heading_ = false;
 };
 
 class NpyReader : public PointReader {
@@ -213,7 +222,8 @@ class NpyReader : public PointReader {
     const std::string type = value_of(head, "'descr':");
     is_double_ = type.starts_with("'<f8'");
     if (!is_double_ && !type.starts_with("'<f4'")) {
-      input_.fail("the type of its numbers is not <f4 or <f8 but " + type);
+      const size_t end = type.find_first_of(type.starts_with('[') ? "]" : "'", 1);
+      input_.fail("the type of its numbers is not <f4 or <f8 but " + type.substr(0, end + 1));
     }
     if (!value_of(head, "'fortran_order':").starts_with("False")) {
       input_.fail("its values are in Fortran order; write numpy.ascontiguousarray(points)");

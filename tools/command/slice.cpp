@@ -280,7 +280,7 @@ void run_slice(const Arguments& arguments) {
   auto plan = defaults(msq_slicer_def_init);
   auto contours = defaults(msq_contours_def_init);
   read_document(scene, plan, contours);
-  if (!plan.layer_z && !(plan.layer_height > 0)) arguments.require("layer-height");
+  if (!plan.layer_z && plan.layer_height == 0) arguments.require("layer-height");
   if (arguments.has("layer-height")) {
     plan.layer_height = arguments.number("layer-height", 0);
     plan.layer_z = nullptr;
@@ -302,7 +302,7 @@ void run_slice(const Arguments& arguments) {
     }
     check_io(msq_io_panel_plan(scene.model.get(), &panel, &plan));
   } else {
-    if (!(plan.pitch[0] > 0) && plan.resolution[0] == 0) arguments.require("pitch");
+    if (plan.pitch[0] == 0 && plan.resolution[0] == 0) arguments.require("pitch");
     read_pixels(arguments, scene, plan);
   }
   Slicer slicer;

@@ -36,6 +36,9 @@ def set_window(definition: _abi.msq_window, window: Optional[Window]) -> None:
     """Writes a window; None: the whole grid."""
     if window is None:
         return
+    if len(window) != 2:
+        raise ValueError(f"the window has {len(window)} parts; it must have 2: first and counts, of "
+                         "three numbers each")
     first, counts = window
     for name, to, numbers in (("first", definition.first, first),
                               ("counts", definition.count, counts)):

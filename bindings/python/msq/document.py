@@ -38,6 +38,8 @@ class Document(Handle):
                   job: Optional[Job] = None) -> Document:
         """Reads a text. base_directory: where the paths in it start. files: which it may name:
         `below` that directory, `none` or `any`. Maxima of 0: those of msq."""
+        if not isinstance(text, (str, bytes, bytearray)):
+            raise TypeError(f"text is of type {type(text).__name__}; it must be str or bytes")
         data = text.encode() if isinstance(text, str) else bytes(text)
         context = context_of(context)
         definition = _definition(base_directory, files, max_bytes, max_values, max_depth, max_files,

@@ -157,9 +157,13 @@ def set_param(target: _abi.msq_param, value: Param) -> None:
     """Writes a parameter, as lend() does."""
     if isinstance(value, Field):
         lend(target, "field", value)
-    else:
-        target.value = value
+    elif hasattr(value, "__float__"):
+        target.value = float(value)
         target.field = ctypes.POINTER(_abi.msq_field)()
+    else:
+        hint = "; Field.host makes a field of a function" if callable(value) else ""
+        raise TypeError(f"a parameter is of type {type(value).__name__}; it must be a number or a "
+                        f"Field{hint}")
 
 
 def set_parameters(definition: Any, parameters: Optional[Mapping[str, float]]) -> None:

@@ -101,6 +101,8 @@ class Stratified(PointSet):
 
 
 def _counts(counts: Sequence[int]) -> Tuple[int, int, int]:
+    if len(counts) != 3:
+        raise ValueError(f"counts has {len(counts)} numbers; it must have 3")
     nx, ny, nz = (unsigned(count, 64, "counts") for count in counts)
     return (nx, ny, nz)
 

@@ -214,6 +214,8 @@ class Documents(unittest.TestCase):
             msq.Model.from_json('{"msq_model": 1, "scales": [{"shape":\n{"box": {}}}]}')
         with self.assertRaises(FileNotFoundError):
             msq.Document.from_file("no such file.json")
+        with self.assertRaisesRegex(TypeError, "text is of type dict; it must be str or bytes"):
+            msq.Model.from_json({"msq_model": 1})
 
 
 if __name__ == "__main__":

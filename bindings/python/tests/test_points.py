@@ -85,6 +85,17 @@ class Answers(unittest.TestCase):
         for window in (((0, 0), (1, 1)), ((0, 0, 0), (0, 0, 0)), ((-1, 0, 0), (1, 1, 1))):
             with self.assertRaises((ValueError, OverflowError)):
                 dataclasses.replace(grid, window=window).coordinates(0, 1)
+        with self.assertRaisesRegex(ValueError, "window has 6 parts; it must have 2"):
+            dataclasses.replace(grid, window=(0, 0, 0, 1, 1, 1)).coordinates(0, 1)
+        with self.assertRaisesRegex(ValueError, "counts has 2 numbers; it must have 3"):
+            msq.PointGrid((0, 0, 0), 0.5, (3, 4)).coordinates(0, 1)
+
+    def test_parameters_are_numbers_or_fields(self):
+        for wrong, text in (("0.5", "type str"), (None, "NoneType"), (lambda p: 0.3, "Field.host")):
+            with self.assertRaisesRegex(TypeError, text):
+                msq.Lattice("bcc", cell_size=4, radius=wrong)
+        for number in (0.5, 1, np.float32(0.5), np.array(0.5)):
+            msq.Lattice("bcc", cell_size=4, radius=number).close()
 
     def test_of_values_are_those_of_closed_forms(self):
         points = random_points(2000).reshape(40, 50, 3)

@@ -53,11 +53,7 @@ class Foam final : public FoamData {
   double onset_limit() const override {
     return min_component((placed() ? placed()->smallest() : neighbourhood()).cell_size);
   }
-  double min_ray_step() const override {
-    return radius().lipschitz() < std::numeric_limits<double>::infinity()
-               ? ray_tolerance()
-               : Structure::min_ray_step();
-  }
+  const Parameter* sloped_parameter() const override { return &radius(); }
 
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;

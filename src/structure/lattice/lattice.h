@@ -45,11 +45,7 @@ class Lattice final : public Structure, public RepeatingStructure {
   bool has_steady_distance() const override {
     return radius_.lipschitz() < std::numeric_limits<double>::infinity();
   }
-  double min_ray_step() const override {
-    return radius_.lipschitz() < std::numeric_limits<double>::infinity()
-               ? ray_tolerance()
-               : Structure::min_ray_step();
-  }
+  const Parameter* sloped_parameter() const override { return &radius_; }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;

@@ -1837,7 +1837,7 @@ pub struct msq_fill_def {
     pub origin: [f64; 2],
     /// In model units. Slicers take the middle of the layer. Default 0.
     pub z: f64,
-    /// Maximum distance between the lines and the middle of the walls, in model units, before rounding to the coordinates. At least half a unit of the coordinates. 0 (default): 1/200 of the smallest cell size.
+    /// Maximum distance between the lines and the middle of the walls, in model units, before rounding to the coordinates. Less than half a unit of the coordinates gains nothing. 0 (default): 1/200 of the smallest cell size.
     pub tolerance: f64,
     /// In model units. Shorter paths are dropped. Shorter lines between two points where an odd number of lines meet are dropped too: each saves a path. If min_length is at most the width of a printed line, the lines that continue at the two ends still touch. Default 0.
     pub min_length: f64,

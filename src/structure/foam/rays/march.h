@@ -11,7 +11,7 @@ namespace msq {
 Vec3 strut_normal(const FoamData& foam, const Ray& ray, double t);
 
 /// A t, at most `to`, up to which a ray that is inside at `from` stays in a strut that contains its
-/// point there, safe against rounding; `from` if none is found. For foams of one radius.
+/// point there, safe against rounding; `from` if none is found. For foams of one density.
 double strut_exit(const FoamData& foam, const Ray& ray, double from, double to);
 
 /// A length along a ray from p, which is outside, within which the ray does not come within `room`

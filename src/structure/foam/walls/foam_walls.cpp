@@ -142,12 +142,6 @@ BoxClass FoamWalls::classify(const Box3& box) const {
   return BoxClass::mixed;
 }
 
-double FoamWalls::min_ray_step() const {
-  return thickness_.lipschitz() < std::numeric_limits<double>::infinity()
-             ? ray_tolerance()
-             : Structure::min_ray_step();
-}
-
 bool FoamWalls::find(bool wanted, const Ray& ray, double from, double to, double& t,
                      const Job* job) const {
   const double tolerance = ray_tolerance(ray, to);

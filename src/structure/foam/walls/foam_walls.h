@@ -48,7 +48,7 @@ class FoamWalls final : public Structure {
   void keep_rows(const RowBlock& block, const Job* job) const override;
   bool knows_boxes() const override { return true; }
   BoxClass classify(const Box3& box) const override;
-  double min_ray_step() const override;
+  const Parameter* sloped_parameter() const override { return &thickness_; }
 
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;

@@ -64,11 +64,7 @@ class MixedLattice final : public Structure {
   bool has_steady_distance() const override {
     return radius_.lipschitz() < std::numeric_limits<double>::infinity();
   }
-  double min_ray_step() const override {
-    return radius_.lipschitz() < std::numeric_limits<double>::infinity()
-               ? ray_tolerance()
-               : Structure::min_ray_step();
-  }
+  const Parameter* sloped_parameter() const override { return &radius_; }
 
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;

@@ -35,9 +35,7 @@ class PlateLattice final : public Structure, public RepeatingStructure {
   /// (4 if plates' factors differ).
   double distance_bound(Vec3 p) const override;
   bool has_steady_distance() const override { return is_steady(); }
-  double min_ray_step() const override {
-    return is_steady() ? ray_tolerance() : Structure::min_ray_step();
-  }
+  const Parameter* sloped_parameter() const override { return &thickness_; }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;

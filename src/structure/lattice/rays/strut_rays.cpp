@@ -100,7 +100,7 @@ Interval StrutRays::radii_in(const Ray& ray, const Part& part) {
     return radius_.range(
         box_of(ray, part.from, part.to).grown(2 * tolerance_ + formula_error * cell_));
   };
-  if (is_in_boxes_) return in_part();
+  if (is_in_boxes_ || part.is_short) return in_part();
   const CellIndex cell = part.cell;
   CellRadii& known = radii_[hash_of(cell) % std::size(radii_)];
   if (!known.is_known || !(known.cell == cell)) {
@@ -271,37 +271,72 @@ void StrutRays::enter(RaySearch& search) {
   });
 }
 
+bool StrutRays::follow(const Ray& ray, const Part& part, double& until) {
+  const Vec3 begin = ray.at(part.from), end = ray.at(part.to);
+  Vec3 gradient;
+  const bool is_interval =
+      radius_.is_constant() || radius_.is_linear(Box3{min(begin, end), max(begin, end)}, gradient);
+  // If a strut may contain more than one interval, that of the minimum radius.
+  find_candidates(ray, part, is_interval);
+  // Where the ray, in the strut at `until`, leaves it, within the part.
+  const auto end_of = [&](const Candidate& c) {
+    const auto is_out = [&](double t) { return !holds(part, c.strut, ray.at(t)); };
+    const double last = std::min(c.leave, part.to);
+    if (!(last > until) || is_out(until)) return until;
+    return is_out(last) ? bisect(until, last, tolerance_, is_out) - tolerance_ : last;
+  };
+  const Candidate* last = nullptr;
+  // Each round except the last continues with another strut.
+  bool is_longer = true;
+  for (size_t rounds = 0; is_longer && until < part.to && rounds <= candidates_.size(); ++rounds) {
+    is_longer = false;
+    for (const Candidate& c : candidates_) {
+      if (c.enter > until + formula_error * cell_) continue;
+      const double t = end_of(c);
+      if (!(t > until)) continue;
+      until = t;
+      is_longer = true;
+      last = &c;
+    }
+  }
+  if (is_interval || until >= part.to || !last) return is_interval;
+  return follow_out(ray, part, last->strut, until);
+}
+
+// The distance from an axis is convex along the ray. Where it grows faster than the radius can, the
+// ray leaves the strut once.
+bool StrutRays::follow_out(const Ray& ray, const Part& part, uint32_t strut, double& until) const {
+  const auto is_out = [&](double t) { return !holds(part, strut, ray.at(t)); };
+  const Vec3 away = lists_.struts().axis(strut).way_to(locate(part, ray.at(until)));
+  const double rise = dot(away, grid_.rotation.apply_inverse(ray.direction)) / length(away);
+  const double slope = radius_.lipschitz(box_of(ray, until, part.to).grown(2 * tolerance_));
+  if (!(rise > lists_.struts().factor(strut) * slope) || is_out(until)) return false;
+  until = is_out(part.to) ? std::max(until, bisect(until, part.to, tolerance_, is_out) - tolerance_)
+                          : part.to;
+  return until < part.to;
+}
+
 double StrutRays::leave(const Ray& ray, double from, double to) {
   tolerance_ = structure_.ray_tolerance(ray, to);
   double until = from;
-  walk(ray, from, to, [&](const Part& part) {
-    const Vec3 begin = ray.at(part.from), end = ray.at(part.to);
-    Vec3 gradient;
-    const bool is_interval = radius_.is_constant() ||
-                             radius_.is_linear(Box3{min(begin, end), max(begin, end)}, gradient);
-    // If a strut may contain more than one interval, that of the minimum radius.
-    find_candidates(ray, part, is_interval);
-    // Where the ray, in the strut at `until`, leaves it, within the part.
-    const auto end_of = [&](const Candidate& c) {
-      const auto is_out = [&](double t) { return !holds(part, c.strut, ray.at(t)); };
-      const double last = std::min(c.leave, part.to);
-      if (!(last > until) || is_out(until)) return until;
-      return is_out(last) ? bisect(until, last, tolerance_, is_out) - tolerance_ : last;
-    };
-    // Each round except the last continues with another strut.
-    bool is_longer = true;
-    for (size_t rounds = 0; is_longer && until < part.to && rounds <= candidates_.size();
-         ++rounds) {
-      is_longer = false;
-      for (const Candidate& c : candidates_) {
-        if (c.enter > until + formula_error * cell_) continue;
-        const double t = end_of(c);
-        if (!(t > until)) continue;
-        until = t;
-        is_longer = true;
+  walk(ray, from, to, [&](const Part& whole) {
+    // Where a strut of the minimum radius ends, pieces tell more that are ever shorter.
+    constexpr int max_pieces = 64;
+    constexpr double shorter = 0.125;
+    Part part = whole;
+    double size = whole.to - whole.from;
+    for (int n = 0; n < max_pieces; ++n) {
+      const bool is_settled = follow(ray, part, until);
+      if (until >= whole.to) return true;
+      if (until < part.to) {
+        size *= shorter;
+        if (is_settled || size < tolerance_) return false;
       }
+      part.from = until;
+      part.to = std::min(whole.to, until + size);
+      part.is_short = true;
     }
-    return until >= part.to;
+    return false;
   });
   return until > from ? until : structure_.Structure::leave(ray, from, to, job_);
 }

@@ -58,6 +58,7 @@ class StrutRays {
     CellIndex cell;
     int number[3];
     double from, to;
+    bool is_short = false;  // a piece of it, in which the radius varies less than in the cell
   };
   struct Candidate {
     uint32_t strut;
@@ -72,6 +73,11 @@ class StrutRays {
   void walk_boxes(const Ray& ray, const Box3* box, Part& part, double to, Visit&& visit);
   /// Bounds of the radius in a part.
   Interval radii_in(const Ray& ray, const Part& part);
+  /// Moves `until`, at which the ray is inside, towards the end of the part, as long as struts that
+  /// hold the ray there hold it. Returns false if only the minimum radius of the part tells.
+  bool follow(const Ray& ray, const Part& part, double& until);
+  /// The same of one strut that the ray is about to leave.
+  bool follow_out(const Ray& ray, const Part& part, uint32_t strut, double& until) const;
   /// The struts that the ray meets in a part with the minimum or the maximum radius there.
   void find_candidates(const Ray& ray, const Part& part, bool greatest);
   /// Finds the first t in [from, to] at which the strut contains the ray's point.
