@@ -14,6 +14,7 @@
 #include "structure/foam/rays/march.h"
 #include "structure/foam/rays/packets.h"
 #include "structure/foam/rays/strut_entry.h"
+#include "structure/foam/rays/strut_exit.h"
 #include "structure/foam/section/section_lines.h"
 #include "structure/foam/sets/brick_rows.h"
 #include "structure/foam/sets/bricks.h"

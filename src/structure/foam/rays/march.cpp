@@ -8,41 +8,16 @@
 
 #include "base/borrowed.h"
 #include "structure/foam/edges/graded_edges.h"
-#include "structure/foam/point/edges_near.h"
 #include "structure/foam/point/graded_point.h"
-#include "structure/foam/point/stretched_point.h"
-#include "structure/foam/point/weighted_point.h"
+#include "structure/foam/rays/near_struts.h"
 #include "structure/foam/rays/strut_entry.h"
 #include "structure/foam/rays/tapered_entry.h"
-#include "strut/segment.h"
 
 namespace msq {
 
 namespace {
 
-/// The struts within a radius (foam units) of a point, and the point in their frame.
-class NearStruts {
- public:
-  NearStruts(const FoamData& foam, Vec3 p, double radius) {
-    const Neighbourhood::Located located = foam.neighbourhood().locate(p);
-    q = located.fraction * foam.seeds().scale();
-    if (foam.stretch())
-      find_stretched_edges_near(*foam.stretch(), located.cell, q, radius, *struts_);
-    else if (foam.is_weighted())
-      find_weighted_edges_near(foam.seeds(), located.cell, q, radius, *struts_);
-    else
-      find_edges_near(foam.seeds(), located.cell, q, radius, *struts_);
-  }
-  auto begin() const { return struts_->cbegin(); }
-  auto end() const { return struts_->cend(); }
-
-  Vec3 q;
-
- private:
-  const Borrowed<std::vector<NearEdge>> struts_;
-};
-
-/// The same for foams with graded seeds: lines, and NearEdge's numbers of their edges.
+/// Near a point of a foam with graded seeds: lines, and NearEdge's numbers of their edges.
 struct NearLine {
   StrutLine line;
   double distance_squared, lead;
@@ -103,111 +78,6 @@ Vec3 strut_normal(const FoamData& foam, const Ray& ray, double t) {
   if (!nearest || !(nearest->distance_squared > 0.25 * radius * radius)) return {};
   const Vec3 normal = TaperedStrut(foam, foam_ray, nearest->line).normal(foam_ray.from);
   return dot(normal, ray.direction) < 0 ? normal : Vec3{};
-}
-
-namespace {
-
-/// A ray from a point in the foam, `q` in the frame of struts near it, by the way from there in
-/// foam units.
-class Exit {
- public:
-  Exit(const FoamData& foam, const Ray& ray, double from, double to)
-      : foam_(foam),
-        ray_(ray),
-        from_(from),
-        to_((to - from) / foam.unit()),
-        foam_ray_(StrutEntries(foam).ray(search_)),
-        most_(radii(0, 0).high),
-        struts_(foam, ray.at(from), 2 * most_) {}
-
-  /// How far struts that hold the ray hold it.
-  double find() {
-    double until = 0;
-    if (foam_.radius().is_constant()) {
-      follow(0, to_, until);
-      return until;
-    }
-    // The radius varies less in a shorter piece.
-    constexpr int max_pieces = 64;
-    constexpr double shorter = 0.125;
-    double size = 2 * most_;
-    for (int n = 0; n < max_pieces && until < to_; ++n) {
-      const double end = std::min(to_, until + size);
-      const NearEdge* const strut = follow(until, end, until);
-      if (until >= end) continue;
-      if (strut && follow_out(*strut, end, until)) break;
-      size *= shorter;
-      if (size < foam_ray_.tolerance) break;
-    }
-    return until;
-  }
-
- private:
-  /// Of the piece, less the rounding of points.
-  Interval radii(double begin, double end) const {
-    const double unit = foam_.unit(), room = 2 * foam_ray_.error;
-    const Interval range =
-        foam_.radius().is_constant()
-            ? Interval{foam_.radius().at({}), foam_.radius().at({})}
-            : foam_.radius().range(box_of(ray_, from_ + begin * unit, from_ + end * unit));
-    return {std::max(0.0, range.low / unit - room), std::max(0.0, range.high / unit - room)};
-  }
-
-  Vec3 start_of(const NearEdge& strut) const { return strut.line.at(strut.part.low) - struts_.q; }
-  Vec3 end_of(const NearEdge& strut) const { return strut.line.at(strut.part.high) - struts_.q; }
-
-  /// Moves `until` as far as a strut of the piece's minimum radius holds the ray, which is in it
-  /// at `begin`. Returns the strut, or null. The known part of an edge is its axis.
-  const NearEdge* follow(double begin, double end, double& until) const {
-    const double radius = radii(begin, end).low;
-    const Vec3 u = foam_ray_.direction;
-    const NearEdge* last = nullptr;
-    for (const NearEdge& strut : struts_) {
-      const Vec3 a = start_of(strut), ab = end_of(strut) - a;
-      if (!(Segment(a, a + ab).distance_squared(u * begin) <= radius * radius)) continue;
-      const double exit = -capsule_entry(a, ab, u * -1.0, radius);
-      if (!(std::isfinite(exit) && exit > until)) continue;
-      until = std::min(end, exit);
-      last = &strut;
-    }
-    return last;
-  }
-
-  /// The distance from an axis is convex along the ray. Where it grows faster than the radius can,
-  /// the ray leaves the strut once.
-  bool follow_out(const NearEdge& strut, double end, double& until) const {
-    const double unit = foam_.unit();
-    const Segment axis(start_of(strut), end_of(strut));
-    const Vec3 away = axis.way_to(foam_ray_.direction * until);
-    const double rise = dot(away, foam_ray_.direction) / length(away);
-    const Box3 box = box_of(ray_, from_ + until * unit, from_ + end * unit);
-    if (!(rise > foam_.radius().lipschitz(box))) return false;
-    const auto is_out = [&](double t) {
-      const double radius =
-          foam_.radius().at(ray_.at(from_ + t * unit)) / unit - 2 * foam_ray_.error;
-      return !(axis.distance_squared(foam_ray_.direction * t) <= radius * radius);
-    };
-    if (is_out(until)) return false;
-    until =
-        is_out(end)
-            ? std::max(until, bisect(until, end, foam_ray_.tolerance, is_out) - foam_ray_.tolerance)
-            : end;
-    return until < end;
-  }
-
-  const FoamData& foam_;
-  const Ray& ray_;
-  const double from_, to_;
-  const RaySearch search_{ray_, from_, from_ + to_* foam_.unit()};
-  const FoamRay foam_ray_;
-  const double most_;  // the radius where the ray starts
-  const NearStruts struts_;
-};
-
-}  // namespace
-
-double strut_exit(const FoamData& foam, const Ray& ray, double from, double to) {
-  return std::min(to, from + Exit(foam, ray, from, to).find() * foam.unit());
 }
 
 double way_to_strut(const FoamData& foam, Vec3 p, Vec3 direction, double room) {

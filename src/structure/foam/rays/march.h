@@ -10,10 +10,6 @@ namespace msq {
 /// The outward normal where a ray enters the foam at t; 0 if there is none that faces the ray.
 Vec3 strut_normal(const FoamData& foam, const Ray& ray, double t);
 
-/// A t, at most `to`, up to which a ray that is inside at `from` stays in a strut that contains its
-/// point there, safe against rounding; `from` if none is found. For foams of one density.
-double strut_exit(const FoamData& foam, const Ray& ray, double from, double to);
-
 /// A length along a ray from p, which is outside, within which the ray does not come within `room`
 /// of a strut. It is at most a fraction of a cell, and ends before the strut by the tolerance. For
 /// foams of one density.
