@@ -5,6 +5,7 @@
 #include "expression/parser.h"
 #include "field/expression.h"
 #include "field/map.h"
+#include "foam_structures.h"
 #include "random.h"
 #include "structure/foam/walls/foam_walls.h"
 #include "structure/functional/presets.h"
@@ -159,13 +160,16 @@ std::vector<Row> rows_of_narrow_gaps() {
       {"octet", lattice_factory(octet_unit_cell())},
       {"mixed", mixed_factory()},
       {"foam", foam_factory(FoamMethod::direct, 1)},
+      {"stretched foam", stretched_factory(1, {1, 1, 2})},
+      {"weighted foam", weighted_factory(1, 0.5)},
+      {"foam of rising density", graded_foam_factory(1)},
       {"walls", walls_factory(0)},
   };
   std::vector<Row> all;
   for (const auto& [name, make] : kinds) {
     // Between thick struts there is little.
-    const std::string size =
-        name == std::string("octet") ? "0.2 + 0.03*sin(x)*cos(y)" : "0.3 + 0.03*sin(x)*cos(y)";
+    const bool are_near = name == std::string("octet") || std::string(name).ends_with("density");
+    const std::string size = are_near ? "0.16 + 0.03*sin(x)*cos(y)" : "0.3 + 0.03*sin(x)*cos(y)";
     all.push_back({name + (", " + size), make, size, {}, 0, 0});
   }
   return all;

@@ -149,7 +149,7 @@ bool Foam::all_fit_struts(const RaySearch* searches, size_t count) const {
 }
 
 double Foam::leave(const Ray& ray, double from, double to, const Job* job) const {
-  if (!graded() && fits_struts(ray, to)) {
+  if (fits_struts(ray, to)) {
     const double exit = strut_exit(*this, ray, from, to);
     if (exit > from) return exit;
   }

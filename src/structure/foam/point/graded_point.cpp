@@ -147,8 +147,10 @@ void find_graded_edges_near(const std::shared_ptr<const GradedSeeds>& seeds, Cel
         double lead = std::numeric_limits<double>::infinity();
         for (size_t i = 0; i < count; ++i)
           if (i != a && i != b && i != c) lead = std::min(lead, line.lead(near.positions[i], p));
-        struts.push_back(
-            {{near.names[a], near.names[b], near.names[c]}, dot(d, d) / (unit * unit), lead});
+        struts.push_back({{near.names[a], near.names[b], near.names[c]},
+                          dot(d, d) / (unit * unit),
+                          lead,
+                          {line.at(part.low) * (1 / unit), line.at(part.high) * (1 / unit)}});
       }
     }
 }

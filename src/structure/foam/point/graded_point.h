@@ -23,6 +23,7 @@ struct NearGradedEdge {
   std::array<GradedSeedName, 3> seeds;  ///< relative to the point's cell, in the order of seeds
   double distance_squared;              ///< of the point from the edge, foam units
   double lead;                          ///< as in NearEdge, in sizes of the nearest seed's leaf
+  Vec3 ends[2];  ///< of the part within the radius, foam units, from the cell
 };
 /// Fills `struts` with the edges that come within `radius` of q.
 void find_graded_edges_near(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,

@@ -9,7 +9,7 @@
 #include "base/borrowed.h"
 #include "structure/foam/edges/graded_edges.h"
 #include "structure/foam/point/graded_point.h"
-#include "structure/foam/rays/near_struts.h"
+#include "structure/foam/rays/near_edges.h"
 #include "structure/foam/rays/strut_entry.h"
 #include "structure/foam/rays/tapered_entry.h"
 
@@ -40,7 +40,7 @@ std::vector<NearLine> lines_near(const FoamData& foam, const StrutEntries& entri
     find_graded_lines(foam, p, radius, lines);
     return lines;
   }
-  for (const NearEdge& strut : NearStruts(foam, p, radius))
+  for (const NearEdge& strut : NearEdges(foam, p, radius))
     lines.push_back({entries.line(strut.seeds), strut.distance_squared, strut.lead});
   return lines;
 }
@@ -90,7 +90,7 @@ double way_to_strut(const FoamData& foam, Vec3 p, Vec3 direction, double room) {
   // A longer way needs more seeds, and the number of their triples grows with their cube.
   double ahead = 0.05 * min_component(foam.seeds().scale());
   double radius = max_radius(ahead);
-  const NearStruts struts(foam, p, radius + ahead);
+  const NearEdges struts(foam, p, radius + ahead);
   const Vec3 q = struts.q;
   // To the start of struts with the radius.
   const auto entry = [&] {

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "structure/foam/rays/near_struts.h"
+#include "base/borrowed.h"
+#include "structure/foam/point/graded_point.h"
+#include "structure/foam/rays/near_edges.h"
 #include "structure/foam/rays/strut_entry.h"
 #include "strut/segment.h"
 
@@ -21,8 +24,9 @@ class Exit {
         from_(from),
         to_((to - from) / foam.unit()),
         foam_ray_(StrutEntries(foam).ray(search_)),
-        most_(radii(0, 0).high),
-        struts_(foam, ray.at(from), 2 * most_) {}
+        most_(radii(0, 0).high) {
+    find_axes();
+  }
 
   /// How far struts that hold the ray hold it.
   double find() {
@@ -37,9 +41,9 @@ class Exit {
     double size = 2 * most_;
     for (int n = 0; n < max_pieces && until < to_; ++n) {
       const double end = std::min(to_, until + size);
-      const NearEdge* const strut = follow(until, end, until);
+      const Segment* const axis = follow(until, end, until);
       if (until >= end) continue;
-      if (strut && follow_out(*strut, end, until)) break;
+      if (axis && follow_out(*axis, end, until)) break;
       size *= shorter;
       if (size < foam_ray_.tolerance) break;
     }
@@ -57,31 +61,45 @@ class Exit {
     return {std::max(0.0, range.low / unit - room), std::max(0.0, range.high / unit - room)};
   }
 
-  Vec3 start_of(const NearEdge& strut) const { return strut.line.at(strut.part.low) - struts_.q; }
-  Vec3 end_of(const NearEdge& strut) const { return strut.line.at(strut.part.high) - struts_.q; }
+  /// The parts of edges that are near the start.
+  void find_axes() {
+    const Vec3 p = ray_.at(from_);
+    axes_->clear();
+    if (!foam_.graded()) {
+      const NearEdges edges(foam_, p, 2 * most_);
+      for (const NearEdge& edge : edges)
+        axes_->emplace_back(edge.line.at(edge.part.low) - edges.q,
+                            edge.line.at(edge.part.high) - edges.q);
+      return;
+    }
+    const Borrowed<std::vector<NearGradedEdge>> edges;
+    const Neighbourhood::Located located = foam_.neighbourhood().locate(p);
+    const Vec3 q = located.fraction * foam_.seeds().scale();
+    find_graded_edges_near(foam_.graded(), located.cell, q, 2 * most_, *edges);
+    for (const NearGradedEdge& edge : *edges)
+      axes_->emplace_back(edge.ends[0] - q, edge.ends[1] - q);
+  }
 
-  /// Moves `until` as far as a strut of the piece's minimum radius holds the ray, which is in it
-  /// at `begin`. Returns the strut, or null. The known part of an edge is its axis.
-  const NearEdge* follow(double begin, double end, double& until) const {
+  /// Moves `until` as far as a strut of the piece's minimum radius holds the ray, which is in it at
+  /// `begin`. Returns the strut's axis, or null.
+  const Segment* follow(double begin, double end, double& until) const {
     const double radius = radii(begin, end).low;
     const Vec3 u = foam_ray_.direction;
-    const NearEdge* last = nullptr;
-    for (const NearEdge& strut : struts_) {
-      const Vec3 a = start_of(strut), ab = end_of(strut) - a;
-      if (!(Segment(a, a + ab).distance_squared(u * begin) <= radius * radius)) continue;
-      const double exit = -capsule_entry(a, ab, u * -1.0, radius);
+    const Segment* last = nullptr;
+    for (const Segment& axis : *axes_) {
+      if (!(axis.distance_squared(u * begin) <= radius * radius)) continue;
+      const double exit = -capsule_entry(axis.a, axis.ab, u * -1.0, radius);
       if (!(std::isfinite(exit) && exit > until)) continue;
       until = std::min(end, exit);
-      last = &strut;
+      last = &axis;
     }
     return last;
   }
 
   /// The distance from an axis is convex along the ray. Where it grows faster than the radius can,
   /// the ray leaves the strut once.
-  bool follow_out(const NearEdge& strut, double end, double& until) const {
+  bool follow_out(const Segment& axis, double end, double& until) const {
     const double unit = foam_.unit();
-    const Segment axis(start_of(strut), end_of(strut));
     const Vec3 away = axis.way_to(foam_ray_.direction * until);
     const double rise = dot(away, foam_ray_.direction) / length(away);
     const Box3 box = box_of(ray_, from_ + until * unit, from_ + end * unit);
@@ -104,8 +122,8 @@ class Exit {
   const double from_, to_;
   const RaySearch search_{ray_, from_, from_ + to_* foam_.unit()};
   const FoamRay foam_ray_;
-  const double most_;  // the radius where the ray starts
-  const NearStruts struts_;
+  const double most_;                          // the radius where the ray starts
+  const Borrowed<std::vector<Segment>> axes_;  // from the start
 };
 
 }  // namespace

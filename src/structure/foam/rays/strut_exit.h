@@ -8,7 +8,7 @@
 namespace msq {
 
 /// A t, at most `to`, up to which a ray that is inside at `from` stays in a strut that contains its
-/// point there, safe against rounding; `from` if none is found. For foams of one density.
+/// point there, safe against rounding; `from` if none is found.
 double strut_exit(const FoamData& foam, const Ray& ray, double from, double to);
 
 }  // namespace msq

@@ -12,9 +12,9 @@
 namespace msq {
 
 /// The struts within a radius (foam units) of a point, and the point in their frame.
-class NearStruts {
+class NearEdges {
  public:
-  NearStruts(const FoamData& foam, Vec3 p, double radius) {
+  NearEdges(const FoamData& foam, Vec3 p, double radius) {
     const Neighbourhood::Located located = foam.neighbourhood().locate(p);
     q = located.fraction * foam.seeds().scale();
     if (foam.stretch())
