@@ -234,7 +234,8 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
       fail(Status::argument, "jitter is %g; it must be from 0 to 1", known.jitter);
     std::shared_ptr<const PlacedSeeds> placed;
     if (map.round) {
-      placed = std::make_shared<const WarpSeeds>(*map.round, known.jitter, known.seed);
+      placed = std::make_shared<const WarpSeeds>(Ref<Context>(&owner), *map.round, known.jitter,
+                                                 known.seed);
       grid = placed->grid();
     }
     if (map.sampled) grid = map.sampled->smallest();

@@ -106,7 +106,8 @@ std::shared_ptr<const PlacedSeeds> warped_seeds(const Neighbourhood& grid, doubl
   constexpr uint64_t seed = 7;
   if (kind == FoamWarp::sampled)
     return std::make_shared<const SampledSeeds>(*shared_context(), sampled_map(grid), jitter, seed);
-  return std::make_shared<const WarpSeeds>(warp_of_foams(grid, kind), jitter, seed);
+  return std::make_shared<const WarpSeeds>(shared_context(), warp_of_foams(grid, kind), jitter,
+                                           seed);
 }
 
 std::shared_ptr<const CellShell> shell_of_foams(const Neighbourhood& grid, FoamWarp kind) {

@@ -259,8 +259,8 @@ std::vector<ModelRow> models() {
          const auto warp = [](double size, double origin, double outer) {
            return Warp(Warp::Kind::cylindrical, cells_of(size, origin), {12, 0, 0.25, outer});
          };
-         const auto places = [](const Warp& shell) {
-           return std::make_shared<const WarpSeeds>(shell, 1.0, uint64_t{6});
+         const auto places = [&c](const Warp& shell) {
+           return std::make_shared<const WarpSeeds>(c, shell, 1.0, uint64_t{6});
          };
          const Warp wide = warp(0.4, 0.2, 0.7), narrow = warp(0.3, 0.15, 0.6);
          const std::shared_ptr<const PlacedSeeds> coarse = places(wide), fine = places(narrow);

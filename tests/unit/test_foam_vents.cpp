@@ -204,7 +204,8 @@ void test_rows_agree_with_points(void**) {
 void test_rows_of_uneven_seeds_agree_with_points(void**) {
   const Ref<const Field> gradient = make_ref<GradientField>(Vec3{0, 0, 0}, 1, Vec3{2, 0, 0}, 12);
   const auto placed = std::make_shared<const WarpSeeds>(
-      Warp{Warp::Kind::cylindrical, Neighbourhood{}, {12, 0, 0.8, 2.6}}, 1.0, uint64_t{3});
+      context(), Warp{Warp::Kind::cylindrical, Neighbourhood{}, {12, 0, 0.8, 2.6}}, 1.0,
+      uint64_t{3});
   for (const bool is_warped : {false, true}) {
     const auto make = [&](double vent_radius) {
       return make_ref<FoamWalls>(context(), Neighbourhood{}, Parameter(0.06), 1.0, uint64_t{3},

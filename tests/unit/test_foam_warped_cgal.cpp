@@ -111,7 +111,7 @@ void test_diagram(void**) {
     const Neighbourhood frame = grid_of(row);
     const Warp warp = warp_of(row, frame);
     const std::shared_ptr<const PlacedSeeds> placed =
-        std::make_shared<const WarpSeeds>(warp, row.jitter, row.seed);
+        std::make_shared<const WarpSeeds>(context, warp, row.jitter, row.seed);
     const auto shell = std::make_shared<const WarpShell>(warp);
     const Neighbourhood grid = placed->grid();
     const double size = min_component(placed->smallest().cell_size);

@@ -14,6 +14,14 @@ namespace {
 /// Own seeds of boxes beyond the outermost ring are in the outer eighth of their box, so that they
 /// hardly come into the rings.
 constexpr double outer_part = 0.125;
+/// Seeds of boxes are kept in the cache where more cells may have them.
+constexpr int32_t few_cells = 256;
+
+struct BoxSeeds final : CellData {
+  std::vector<PlacedSeed> seeds;
+
+  uint64_t bytes() const override { return sizeof *this + seeds.capacity() * sizeof(PlacedSeed); }
+};
 
 Warp in_grid(const Warp& warp) {
   Neighbourhood grid = warp.grid();
@@ -80,8 +88,10 @@ double WarpSeeds::box_volume() const {
   return grid_.cell_size.x * grid_.cell_size.y * grid_.cell_size.z;
 }
 
-WarpSeeds::WarpSeeds(const Warp& warp, double jitter, uint64_t seed)
-    : warp_(in_grid(check(warp))),
+WarpSeeds::WarpSeeds(Ref<Context> context, const Warp& warp, double jitter, uint64_t seed)
+    : context_(std::move(context)),
+      id_(context_->new_structure_id()),
+      warp_(in_grid(check(warp))),
       grid_(warp.grid()),
       smallest_(warp.grid()),
       is_round_(warp.kind() == Warp::Kind::spherical),
@@ -152,6 +162,10 @@ WarpSeeds::WarpSeeds(const Warp& warp, double jitter, uint64_t seed)
   }
   const double cells = outwards * around * up;
   if (!(cells <= max_in_box)) too_many(cells);
+}
+
+WarpSeeds::~WarpSeeds() {
+  context_->cache.drop(id_);
 }
 
 CellIndex WarpSeeds::canonical(CellIndex cell) const {
@@ -259,7 +273,19 @@ CellIndex WarpSeeds::cell_in(const Block& block, uint32_t number) const {
 void WarpSeeds::find(CellIndex box, std::vector<PlacedSeed>& seeds) const {
   if (has_own(box)) seeds.push_back(own_seed(box));
   const Block block = block_of(box);
-  const int32_t count = block.count[0] * block.count[1] * block.count[2];
+  if (block.cells() <= few_cells) return place_all(box, block, seeds);
+  const CellCache::Data data = context_->cache.fetch(id_, box, [&] {
+    auto made = std::make_shared<BoxSeeds>();
+    place_all(box, block, made->seeds);
+    made->seeds.shrink_to_fit();
+    return made;
+  });
+  const std::vector<PlacedSeed>& kept = static_cast<const BoxSeeds&>(*data).seeds;
+  seeds.insert(seeds.end(), kept.begin(), kept.end());
+}
+
+void WarpSeeds::place_all(CellIndex box, const Block& block, std::vector<PlacedSeed>& seeds) const {
+  const int32_t count = block.cells();
   for (int32_t n = 1; n <= count; ++n) {
     PlacedSeed seed = place(cell_in(block, static_cast<uint32_t>(n)));
     if (!(seed.box == box)) continue;

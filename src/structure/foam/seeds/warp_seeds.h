@@ -30,6 +30,7 @@
 // which is below 2^24 cells: far less than `room`.
 #pragma once
 
+#include "cell/context.h"
 #include "cell/warp.h"
 #include "structure/foam/seeds/placed_seeds.h"
 #include "structure/foam/seeds/seeds.h"
@@ -45,7 +46,8 @@ class WarpSeeds final : public PlacedSeeds {
 
   /// Throws Error(argument) for a shell without an outer radius, and Error(limit) for ratios above
   /// max_ratio, too few cells around a point, or where a box would have too many cells.
-  WarpSeeds(const Warp& warp, double jitter, uint64_t seed);
+  WarpSeeds(Ref<Context> context, const Warp& warp, double jitter, uint64_t seed);
+  ~WarpSeeds() override;
 
   const Neighbourhood& grid() const override { return grid_; }
   const Neighbourhood& smallest() const override { return smallest_; }
@@ -73,6 +75,8 @@ class WarpSeeds final : public PlacedSeeds {
   struct Block {
     CellIndex first;
     int32_t count[3];
+
+    int32_t cells() const { return count[0] * count[1] * count[2]; }
   };
   Block block_of(CellIndex box) const;
   CellIndex cell_in(const Block& block, uint32_t number) const;
@@ -86,6 +90,8 @@ class WarpSeeds final : public PlacedSeeds {
   PlacedSeed own_seed(CellIndex box) const;
   /// The seed of a cell, without its number.
   PlacedSeed place(CellIndex cell) const;
+  /// Appends those of the block's cells that are in the box.
+  void place_all(CellIndex box, const Block& block, std::vector<PlacedSeed>& seeds) const;
   CellIndex canonical(CellIndex cell) const;
   /// Around the axis, and along it or from south to north.
   double width(double radius) const;
@@ -94,6 +100,8 @@ class WarpSeeds final : public PlacedSeeds {
   double diagonal(double radius) const;
   double box_volume() const;
 
+  const Ref<Context> context_;
+  const uint64_t id_;              // in the cache
   Warp warp_;                      // in grid coordinates
   Neighbourhood grid_, smallest_;  // of boxes
   bool is_round_;                  // around a point
