@@ -21,26 +21,19 @@ void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
 }
 
-double Structure::min_ray_step() const {
+bool Structure::is_sloped_everywhere() const {
   const Parameter* const parameter = sloped_parameter();
-  return parameter && parameter->lipschitz() < infinity
-             ? ray_tolerance()
-             : min_component(neighbourhood().cell_size) / 64;
+  return parameter && parameter->lipschitz() < infinity;
 }
 
-bool Structure::march(bool wanted, const Ray& ray, double from, double to, double& t,
-                      const Job* job) const {
-  const double tolerance = ray_tolerance(ray, to);
-  const double coarse = std::max(min_ray_step(), tolerance);
+double Structure::min_ray_step() const {
+  return is_sloped_everywhere() ? ray_tolerance() : min_component(neighbourhood().cell_size) / 64;
+}
+
+double Structure::march_step(Vec3 p, double coarse) const {
+  const double bound = distance_bound(p);
   const Parameter* const parameter = sloped_parameter();
-  const RayMarch steps{parameter ? tolerance : coarse, tolerance};
-  return steps.find(
-      wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-      [&](Vec3 p) {
-        const double bound = distance_bound(p);
-        return parameter ? steady_ray_step(bound, coarse, *parameter, p) : bound;
-      },
-      t, job);
+  return parameter ? steady_ray_step(bound, coarse, *parameter, p) : bound;
 }
 
 void Structure::enter(RaySearch* searches, size_t count, const Job* job) const {

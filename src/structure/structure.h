@@ -79,8 +79,9 @@ class Structure : public Described {
   /// its bound is exact. The default, 0, is always valid.
   virtual double distance_bound(Vec3) const { return 0; }
   /// Whether distance_bound() has the Lipschitz constant 1 everywhere, and is more than 0 away from
-  /// the boundary, rounding, and borders of cells where a function jumps.
-  virtual bool has_steady_distance() const { return false; }
+  /// the boundary, rounding, and borders of cells where a function jumps. Default: where
+  /// sloped_parameter() has a slope that bounds it everywhere.
+  virtual bool has_steady_distance() const { return is_sloped_everywhere(); }
 
   /// Whether onset() is implemented.
   virtual bool has_onset() const { return false; }
@@ -199,9 +200,25 @@ class Structure : public Described {
 
   /// The first t in [from, to] at which membership is `wanted`, by distance_bound() and
   /// min_ray_step().
-  bool march(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const {
+    return march(wanted, ray, from, to, t, job, [this](Vec3 p) { return inside(p); });
+  }
+  /// The same with holds(p) in place of inside(p), to the last bit.
+  template <class Holds>
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job,
+             Holds&& holds) const {
+    const double tolerance = ray_tolerance(ray, to), coarse = std::max(min_ray_step(), tolerance);
+    const RayMarch steps{sloped_parameter() ? tolerance : coarse, tolerance};
+    return steps.find(
+        wanted, ray, from, to, holds, [&](Vec3 p) { return march_step(p, coarse); }, t, job);
+  }
 
  private:
+  /// Whether the parameter has a slope that bounds it everywhere.
+  bool is_sloped_everywhere() const;
+  /// distance_bound(), or `coarse` where a sloped parameter has no slope about p.
+  double march_step(Vec3 p, double coarse) const;
+
   Neighbourhood neighbourhood_;
   double cell_length_, characteristic_length_;
   bool is_on_grid_ = true;

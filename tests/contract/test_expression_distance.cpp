@@ -136,9 +136,7 @@ void test_thin_walls(void** state) {
   size_t hits = 0;
   const size_t count = test_count(400) + 40;
   for (size_t n = 0; n < count; ++n) {
-    Vec3 way{random.normal(), random.normal(), random.normal()};
-    way = way * (1 / length(way));
-    RaySearch search{{random.in_box({{-3, -3, -3}, {3, 3, 3}}), way}, 0, range};
+    RaySearch search{{random.in_box({{-3, -3, -3}, {3, 3, 3}}), random.direction()}, 0, range};
     structure->enter(&search, 1, nullptr);
     hits += search.found;
     const double end = search.found ? search.t : range;
@@ -186,9 +184,7 @@ void test_narrow_gaps(void** state) {
       row.make({{0.1, -0.2, 0.3}, {1, 1, 1}, {}}, Parameter(field));
   size_t starts = 0;
   for (size_t n = 0; n < test_count(6000); ++n) {
-    Vec3 way{random.normal(), random.normal(), random.normal()};
-    way = way * (1 / length(way));
-    const Ray ray{random.in_box({{-3, -3, -3}, {3, 3, 3}}), way};
+    const Ray ray{random.in_box({{-3, -3, -3}, {3, 3, 3}}), random.direction()};
     if (!structure->inside(ray.origin)) continue;
     ++starts;
     const double end = structure->leave(ray, 0, range, nullptr);

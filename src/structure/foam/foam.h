@@ -44,9 +44,6 @@ class Foam final : public FoamData {
   std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   /// Exact outside where the radius is constant.
   double distance_bound(Vec3 p) const override;
-  bool has_steady_distance() const override {
-    return radius().lipschitz() < std::numeric_limits<double>::infinity();
-  }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return radius().at(p); }

@@ -42,9 +42,6 @@ class Lattice final : public Structure, public RepeatingStructure {
   /// Exact outside if the radius is constant and the cell sizes differ by a factor of at most 8 (4
   /// if struts' factors differ).
   double distance_bound(Vec3 p) const override;
-  bool has_steady_distance() const override {
-    return radius_.lipschitz() < std::numeric_limits<double>::infinity();
-  }
   const Parameter* sloped_parameter() const override { return &radius_; }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/borrowed.h"
+#include "structure/common/leave_strut.h"
 #include "structure/foam/point/graded_point.h"
 #include "structure/foam/rays/near_edges.h"
 #include "structure/foam/rays/strut_entry.h"
@@ -35,31 +36,25 @@ class Exit {
       follow(0, to_, until);
       return until;
     }
-    // The radius varies less in a shorter piece.
-    constexpr int max_pieces = 64;
-    constexpr double shorter = 0.125;
-    double size = 2 * most_;
-    for (int n = 0; n < max_pieces && until < to_; ++n) {
-      const double end = std::min(to_, until + size);
+    follow_pieces(to_, 2 * most_, foam_ray_.tolerance, until, [&](double end) {
       const Segment* const axis = follow(until, end, until);
-      if (until >= end) continue;
-      if (axis && follow_out(*axis, end, until)) break;
-      size *= shorter;
-      if (size < foam_ray_.tolerance) break;
-    }
+      return axis && until < end && follow_out(*axis, end, until);
+    });
     return until;
   }
 
  private:
-  /// Of the piece, less the rounding of points.
+  /// Of the piece, less room().
   Interval radii(double begin, double end) const {
-    const double unit = foam_.unit(), room = 2 * foam_ray_.error;
+    const double unit = foam_.unit();
     const Interval range =
         foam_.radius().is_constant()
             ? Interval{foam_.radius().at({}), foam_.radius().at({})}
             : foam_.radius().range(box_of(ray_, from_ + begin * unit, from_ + end * unit));
-    return {std::max(0.0, range.low / unit - room), std::max(0.0, range.high / unit - room)};
+    return {std::max(0.0, range.low / unit - room()), std::max(0.0, range.high / unit - room())};
   }
+  /// For the rounding of points.
+  double room() const { return 2 * foam_ray_.error; }
 
   /// The parts of edges that are near the start.
   void find_axes() {
@@ -96,25 +91,16 @@ class Exit {
     return last;
   }
 
-  /// The distance from an axis is convex along the ray. Where it grows faster than the radius can,
-  /// the ray leaves the strut once.
   bool follow_out(const Segment& axis, double end, double& until) const {
     const double unit = foam_.unit();
-    const Vec3 away = axis.way_to(foam_ray_.direction * until);
-    const double rise = dot(away, foam_ray_.direction) / length(away);
-    const Box3 box = box_of(ray_, from_ + until * unit, from_ + end * unit);
-    if (!(rise > foam_.radius().lipschitz(box))) return false;
+    const Vec3 u = foam_ray_.direction;
     const auto is_out = [&](double t) {
-      const double radius =
-          foam_.radius().at(ray_.at(from_ + t * unit)) / unit - 2 * foam_ray_.error;
-      return !(axis.distance_squared(foam_ray_.direction * t) <= radius * radius);
+      const double radius = foam_.radius().at(ray_.at(from_ + t * unit)) / unit - room();
+      return !(radius > 0 && axis.distance_squared(u * t) <= radius * radius);
     };
-    if (is_out(until)) return false;
-    until =
-        is_out(end)
-            ? std::max(until, bisect(until, end, foam_ray_.tolerance, is_out) - foam_ray_.tolerance)
-            : end;
-    return until < end;
+    const Box3 box = box_of(ray_, from_ + until * unit, from_ + end * unit);
+    return msq::follow_out(axis.way_to(u * until), u, foam_.radius().lipschitz(box), end,
+                           foam_ray_.tolerance, is_out, until);
   }
 
   const FoamData& foam_;

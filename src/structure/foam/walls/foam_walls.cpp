@@ -145,16 +145,16 @@ BoxClass FoamWalls::classify(const Box3& box) const {
 bool FoamWalls::find(bool wanted, const Ray& ray, double from, double to, double& t,
                      const Job* job) const {
   const double tolerance = ray_tolerance(ray, to);
-  const double coarse = std::max(min_ray_step(), tolerance);
-  const RayMarch steps{tolerance, tolerance};
   const bool goes_by_void = wanted && vents_.exist() && tolerance <= 0x1p-23 * unit_;
-  const auto step = [&](Vec3 p) {
-    const double bound =
-        goes_by_void ? way_in_void(p, ray.direction, tolerance) : distance_bound(p);
-    return steady_ray_step(bound, coarse, thickness_, p);
-  };
-  return steps.find(
-      wanted, ray, from, to, [this](Vec3 p) { return inside(p); }, step, t, job);
+  if (!goes_by_void) return march(wanted, ray, from, to, t, job);
+  const double coarse = std::max(min_ray_step(), tolerance);
+  return RayMarch{tolerance, tolerance}.find(
+      true, ray, from, to, [this](Vec3 p) { return inside(p); },
+      [&](Vec3 p) {
+        const double way = way_in_void(p, ray.direction, tolerance);
+        return steady_ray_step(way, coarse, thickness_, p);
+      },
+      t, job);
 }
 
 // Walls of the greatest thickness along the way hold those of the thickness there is. Where the

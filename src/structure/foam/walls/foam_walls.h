@@ -32,9 +32,6 @@ class FoamWalls final : public Structure {
   bool is_concurrent() const override { return is_concurrent_; }
   /// Exact in the voids where the thickness is constant and there are no holes.
   double distance_bound(Vec3 p) const override;
-  bool has_steady_distance() const override {
-    return thickness_.lipschitz() < std::numeric_limits<double>::infinity();
-  }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return thickness_.at(p); }

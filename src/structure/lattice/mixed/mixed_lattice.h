@@ -61,9 +61,6 @@ class MixedLattice final : public Structure {
   std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   /// Exact outside if the radius is constant, up to twice the smallest cell size.
   double distance_bound(Vec3 p) const override;
-  bool has_steady_distance() const override {
-    return radius_.lipschitz() < std::numeric_limits<double>::infinity();
-  }
   const Parameter* sloped_parameter() const override { return &radius_; }
 
   void enter(RaySearch* searches, size_t count, const Job* job) const override;

@@ -152,12 +152,8 @@ double PlateLattice::onset(Vec3 p) const {
 bool PlateLattice::find(bool wanted, const Ray& ray, double from, double to, double& t,
                         const Job* job) const {
   const PlateClusters& clusters = this->clusters();
-  const double tolerance = ray_tolerance(ray, to);
-  const double coarse = std::max(min_ray_step(), tolerance);
-  const RayMarch steps{tolerance, tolerance};
-  return steps.find(
-      wanted, ray, from, to, [&](Vec3 p) { return holds(clusters, p, thickness_.at(p)); },
-      [&](Vec3 p) { return steady_ray_step(distance_bound(p), coarse, thickness_, p); }, t, job);
+  return march(wanted, ray, from, to, t, job,
+               [&](Vec3 p) { return holds(clusters, p, thickness_.at(p)); });
 }
 
 void PlateLattice::enter(RaySearch* searches, size_t count, const Job* job) const {

@@ -34,7 +34,6 @@ class PlateLattice final : public Structure, public RepeatingStructure {
   /// Exact outside if the thickness is constant and the cell sizes differ by a factor of at most 8
   /// (4 if plates' factors differ).
   double distance_bound(Vec3 p) const override;
-  bool has_steady_distance() const override { return is_steady(); }
   const Parameter* sloped_parameter() const override { return &thickness_; }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
@@ -54,12 +53,9 @@ class PlateLattice final : public Structure, public RepeatingStructure {
 
  private:
   void describe(HashInput& input) const override;
-  bool is_steady() const {
-    return thickness_.lipschitz() < std::numeric_limits<double>::infinity();
-  }
   const PlateClusters& clusters() const;
   const RowPlates& row_plates() const;
-  /// As Structure::march(), with membership by clusters.
+  /// march() with membership by clusters.
   bool find(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
   /// As inside(), to the last bit.
   bool holds(const PlateClusters& clusters, Vec3 p, double thickness) const;

@@ -8,6 +8,7 @@
 #include "base/grid_walk.h"
 #include "base/infinity.h"
 #include "cell/cell_hash.h"
+#include "structure/common/leave_strut.h"
 
 namespace msq {
 
@@ -303,40 +304,26 @@ bool StrutRays::follow(const Ray& ray, const Part& part, double& until) {
   return follow_out(ray, part, last->strut, until);
 }
 
-// The distance from an axis is convex along the ray. Where it grows faster than the radius can, the
-// ray leaves the strut once.
 bool StrutRays::follow_out(const Ray& ray, const Part& part, uint32_t strut, double& until) const {
-  const auto is_out = [&](double t) { return !holds(part, strut, ray.at(t)); };
   const Vec3 away = lists_.struts().axis(strut).way_to(locate(part, ray.at(until)));
-  const double rise = dot(away, grid_.rotation.apply_inverse(ray.direction)) / length(away);
   const double slope = radius_.lipschitz(box_of(ray, until, part.to).grown(2 * tolerance_));
-  if (!(rise > lists_.struts().factor(strut) * slope) || is_out(until)) return false;
-  until = is_out(part.to) ? std::max(until, bisect(until, part.to, tolerance_, is_out) - tolerance_)
-                          : part.to;
-  return until < part.to;
+  return msq::follow_out(
+      away, grid_.rotation.apply_inverse(ray.direction), lists_.struts().factor(strut) * slope,
+      part.to, tolerance_, [&](double t) { return !holds(part, strut, ray.at(t)); }, until);
 }
 
 double StrutRays::leave(const Ray& ray, double from, double to) {
   tolerance_ = structure_.ray_tolerance(ray, to);
   double until = from;
   walk(ray, from, to, [&](const Part& whole) {
-    // Where a strut of the minimum radius ends, pieces tell more that are ever shorter.
-    constexpr int max_pieces = 64;
-    constexpr double shorter = 0.125;
     Part part = whole;
-    double size = whole.to - whole.from;
-    for (int n = 0; n < max_pieces; ++n) {
-      const bool is_settled = follow(ray, part, until);
-      if (until >= whole.to) return true;
-      if (until < part.to) {
-        size *= shorter;
-        if (is_settled || size < tolerance_) return false;
-      }
+    return follow_pieces(whole.to, whole.to - whole.from, tolerance_, until, [&](double end) {
+      part.to = end;
+      const bool leaves = follow(ray, part, until);
       part.from = until;
-      part.to = std::min(whole.to, until + size);
       part.is_short = true;
-    }
-    return false;
+      return leaves;
+    });
   });
   return until > from ? until : structure_.Structure::leave(ray, from, to, job_);
 }

@@ -37,9 +37,6 @@ class WarpedLattice final : public Structure {
   /// Exact outside if the radius is constant, up to max_distance times the smallest cell size.
   double distance_bound(Vec3 p) const override;
   static constexpr double max_distance = 8;
-  bool has_steady_distance() const override {
-    return radius_.lipschitz() < std::numeric_limits<double>::infinity();
-  }
   const Parameter* sloped_parameter() const override { return &radius_; }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
