@@ -102,13 +102,11 @@ void ContourDetails::hold_memory() {
   constexpr uint64_t points_of_piece = 6;
   constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Corner) + sizeof(Search) +
                                 sizeof(Search*) + points_of_piece * ContourPoints::bytes_of_point;
-  constexpr uint64_t of_taken = 6 * sizeof(uint64_t);
   constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LineRun) + 2 * sizeof(Vec2);
-  held_.grow_to(memory_->bends.size() * sizeof(uint64_t) +
-                    memory_->closed.size() * sizeof(RingPoints) +
-                    memory_->pieces.size() * of_piece + memory_->details.size() * of_point +
-                    taken_.size() * of_taken,
-                "the details of contours");
+  held_.grow_to(
+      memory_->bends.size() * sizeof(uint64_t) + memory_->closed.size() * sizeof(RingPoints) +
+          memory_->pieces.size() * of_piece + memory_->details.size() * of_point + room_.bytes(),
+      "the details of contours");
 }
 
 void ContourDetails::add_piece(const Piece& piece) {
@@ -155,45 +153,6 @@ void ContourDetails::merge_runs() {
   runs.clear();
 }
 
-bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
-  const Cell cell = rings_.cell_of(id);
-  const double margin = rings_.margin();
-  return p.x >= cell.low.x + margin && p.x <= cell.high.x - margin && p.y >= cell.low.y + margin &&
-         p.y <= cell.high.y - margin;
-}
-
-/// The cell that holds the corner x of a piece, beside the piece's own one; 0 if there is no such
-/// cell or if it may have other pieces.
-uint64_t ContourDetails::cell_beside(const Piece& piece, Vec2 x) const {
-  const ContourGrid& grid = rings_.grid();
-  const Cell cell = rings_.cell_of(piece.id);
-  // The side between both cells: its direction is across `axis`.
-  const int axis = x.x < cell.low.x || x.x > cell.high.x ? 0 : 1, along = 1 - axis;
-  const bool is_high = x[axis] > cell.high[axis];
-  const double side = is_high ? cell.high[axis] : cell.low[axis], margin = rings_.margin();
-  const double room = grid.pitch() - margin, off = std::abs(x[axis] - side);
-  if (!(off >= margin && off <= room)) return 0;
-  // Away from nodes, also where the sides of the corner may move.
-  const double aside = margin + tolerance_;
-  const auto is_away = [&](double at) {
-    return at >= cell.low[along] + aside && at <= cell.high[along] - aside;
-  };
-  if (!is_away(x[along])) return 0;
-  for (const Vec2 end : {piece.a, piece.b}) {
-    const Vec2 d = end - x;
-    if (d[axis] == 0 || !is_away(x[along] + d[along] * ((side - x[axis]) / d[axis]))) return 0;
-  }
-  const uint64_t step = axis == 0 ? 1 : uint64_t{1} << 32;
-  const uint64_t own = rings_.place_of_cell(piece.id), place = is_high ? own + step : own - step;
-  const uint32_t column = static_cast<uint32_t>(place), row = static_cast<uint32_t>(place >> 32);
-  if (!grid.is_inner_cell(column, row) || rings_.gaps().holds(place)) return 0;
-  const bool is_inside = grid.inside(column, row);
-  const bool are_alike = grid.inside(column + 1, row) == is_inside &&
-                         grid.inside(column, row + 1) == is_inside &&
-                         grid.inside(column + 1, row + 1) == is_inside;
-  return are_alike ? place : 0;
-}
-
 Vec2 ContourDetails::Piece::arc() const {
   return middle() - left_of(unit(b - a)) * bend;
 }
@@ -204,11 +163,16 @@ ContourDetails::Corner ContourDetails::corner_of(const Piece& piece) const {
   const Vec2 d1 = piece.a - rings_.at(piece.before), d2 = rings_.at(piece.behind) - piece.b;
   Corner corner;
   corner.at = piece.a + d1 * (cross(piece.b - piece.a, d2) / cross(d1, d2));
-  corner.is_possible = is_in_cell(piece.id, corner.at);
-  if (!corner.is_possible && rings_.gaps().parts() > 1) {
-    corner.beside = cell_beside(piece, corner.at);
-    corner.is_possible = corner.beside != 0;
-  }
+  corner.is_possible = room_.holds(piece.id, {}, corner.at);
+  if (corner.is_possible) return corner;
+  const Cell cell = rings_.cell_of(piece.id);
+  const double margin = rings_.margin();
+  const auto is_beyond = [&](int axis) {
+    return corner.at[axis] < cell.low[axis] + margin || corner.at[axis] > cell.high[axis] - margin;
+  };
+  const int axis = is_beyond(0) ? 0 : 1;
+  corner.beside = room_.beside(piece.id, axis, corner.at[axis] > cell.high[axis] - margin);
+  corner.is_possible = corner.beside.place != 0 && room_.holds(piece.id, corner.beside, corner.at);
   return corner;
 }
 
@@ -309,7 +273,8 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   }
   piece.bend = bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)),
                        flat_arc * tolerance_);
-  if (piece.bend != 0 && !(std::abs(piece.bend) <= 4 * tolerance_ && is_in_cell(id, piece.arc())))
+  if (piece.bend != 0 &&
+      !(std::abs(piece.bend) <= 4 * tolerance_ && room_.holds(id, {}, piece.arc())))
     piece.bend = 0;
   add_piece(piece);
 }
@@ -420,7 +385,7 @@ void ContourDetails::take_corners(ContourPoints& points) {
       for (size_t n = first; n < first + 6; n += 2)
         is_corner = is_corner && inside[n] && !inside[n + 1];
       first += 6;
-      if (is_corner && corner.beside != 0) is_corner = taken_.insert(corner.beside).second;
+      is_corner = is_corner && room_.take(corner.beside);
       if (is_corner) {
         memory_->details.push_back(
             {piece.id, piece.next, 0.5 * (piece.begin + piece.end), corner.at});
@@ -432,34 +397,66 @@ void ContourDetails::take_corners(ContourPoints& points) {
   memory_->pieces.resize(kept);
 }
 
-void ContourDetails::split(ContourPoints& points) {
-  std::vector<Search> searches;
-  points.clear();
-  for (size_t i = 0; i < memory_->pieces.size(); ++i) {
-    const Piece& piece = memory_->pieces[i];
-    const Vec2 m = piece.middle();
-    const Vec2 d = left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -1.0 : 1.0);
-    // To where the normal leaves the cell.
-    const Cell cell = rings_.cell_of(piece.id);
-    double reach = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 2; ++axis) {
-      const double room = d[axis] > 0 ? cell.high[axis] - rings_.margin() - m[axis]
-                                      : m[axis] - rings_.margin() - cell.low[axis];
-      if (d[axis] != 0) reach = std::min(reach, std::max(0.0, room) / std::abs(d[axis]));
-    }
-    if (!std::isfinite(reach)) reach = 0;
-    searches.push_back({i, m, m + d * reach});
-    points.add(searches.back().other);
+/// Where the normal at the middle of a piece leaves the cells that the piece may use.
+ContourDetails::Search ContourDetails::search_of(size_t number, const Beside& beside) const {
+  const Piece& piece = memory_->pieces[number];
+  const Vec2 m = piece.middle();
+  const Vec2 d = left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -1.0 : 1.0);
+  const Cell cell = room_.cells(piece.id, beside);
+  double reach = std::numeric_limits<double>::infinity();
+  Search search{number, m, m, beside, 0, false};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double room = d[axis] > 0 ? cell.high[axis] - rings_.margin() - m[axis]
+                                    : m[axis] - rings_.margin() - cell.low[axis];
+    if (d[axis] == 0) continue;
+    const double size = std::max(0.0, room) / std::abs(d[axis]);
+    if (size >= reach) continue;
+    reach = size;
+    search.axis = axis;
+    search.is_high = d[axis] > 0;
   }
-  size_t kept = 0;
+  if (std::isfinite(reach)) search.other = m + d * reach;
+  return search;
+}
+
+/// Keeps those of the searches whose other end has not the membership of the piece's middle.
+void ContourDetails::keep_open(std::vector<Search>& searches, std::vector<Search>& closed,
+                               ContourPoints& points) const {
+  points.clear();
+  for (const Search& s : searches) points.add(s.other);
   const std::vector<uint8_t>& ends = points.find_inside();
+  size_t kept = 0;
   for (size_t n = 0; n < searches.size(); ++n) {
-    if ((ends[n] != 0) != memory_->pieces[searches[n].piece].is_inside)
+    const bool is_open = (ends[n] != 0) != memory_->pieces[searches[n].piece].is_inside;
+    if (is_open)
       searches[kept++] = searches[n];
+    else
+      closed.push_back(searches[n]);
+  }
+  searches.resize(kept);
+}
+
+void ContourDetails::split(ContourPoints& points) {
+  std::vector<Search> searches, closed, beyond;
+  for (size_t i = 0; i < memory_->pieces.size(); ++i)
+    searches.push_back(search_of(i, memory_->pieces[i].beside));
+  keep_open(searches, closed, points);
+  // The boundary leaves the cell. It may be in the one beside.
+  for (const Search& s : closed) {
+    const Piece& piece = memory_->pieces[s.piece];
+    const Beside other = s.beside.place == 0 ? room_.beside(piece.id, s.axis, s.is_high) : Beside();
+    if (other.place != 0)
+      beyond.push_back(search_of(s.piece, other));
     else
       ++unresolved_;
   }
-  searches.resize(kept);
+  closed.clear();
+  keep_open(beyond, closed, points);
+  unresolved_ += closed.size();
+  searches.insert(searches.end(), beyond.begin(), beyond.end());
+  const auto is_before = [](const Search& a, const Search& b) { return a.piece < b.piece; };
+  std::inplace_merge(searches.begin(), searches.end() - static_cast<ptrdiff_t>(beyond.size()),
+                     searches.end(), is_before);
   // Each by itself, so that no window changes what another one finds.
   std::vector<Search*> open;
   open.reserve(searches.size());
@@ -486,6 +483,11 @@ void ContourDetails::split(ContourPoints& points) {
   for (const Search& s : searches) {
     const Piece& piece = memory_->pieces[s.piece];
     const Vec2 at = (s.same + s.other) * 0.5;
+    const bool is_free = s.beside.place == piece.beside.place || room_.take(s.beside);
+    if (!is_free || !room_.holds(piece.id, s.beside, at)) {
+      ++unresolved_;
+      continue;
+    }
     const double order = 0.5 * (piece.begin + piece.end);
     memory_->details.push_back({piece.id, piece.next, order, at});
     // A half as short as that is near enough.
@@ -493,6 +495,7 @@ void ContourDetails::split(ContourPoints& points) {
       halves.push_back({.id = piece.id,
                         .next = piece.next,
                         .depth = piece.depth + 1,
+                        .beside = s.beside,
                         .a = piece.a,
                         .b = at,
                         .begin = piece.begin,
@@ -501,6 +504,7 @@ void ContourDetails::split(ContourPoints& points) {
       halves.push_back({.id = piece.id,
                         .next = piece.next,
                         .depth = piece.depth + 1,
+                        .beside = s.beside,
                         .a = at,
                         .b = piece.b,
                         .begin = order,

@@ -11,11 +11,7 @@
 // around the middles of both sides says so. Otherwise the point on the boundary beside the piece's
 // middle is found by bisection, and both halves are looked into likewise.
 //
-// All points found lie within the cell, away from its edges, so pieces of different cells never
-// meet. One exception, at tolerances at which gaps are followed (contour_gaps.h): a corner may lie
-// in the cell beside, if the boundary meets no edge of that cell at a node's scale (its nodes are
-// alike), and no other corner lies there. Both cells together are convex, so the sides of the
-// corner stay within them. At coarser tolerances the time is not worth it.
+// All points found lie where ContourRoom says, so pieces of different cells never meet.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +24,7 @@
 #include "slice/contour_bends.h"
 #include "slice/contour_points.h"
 #include "slice/contour_rings.h"
+#include "slice/contour_room.h"
 
 namespace msq {
 
@@ -42,10 +39,10 @@ struct DetailPoint {
 class ContourDetails {
  public:
   /// `units`: coordinates will be multiplied by it and rounded; 0: they will not be rounded.
-  /// `taken`: cells beside those of pieces that hold corners; kept for all rings of a layer.
+  /// `taken`: see ContourRoom.
   ContourDetails(const ContourRings& rings, double tolerance, double units,
                  std::unordered_set<uint64_t>& taken)
-      : rings_(rings), tolerance_(tolerance), units_(units), taken_(taken) {
+      : rings_(rings), tolerance_(tolerance), units_(units), room_(rings, taken) {
     memory_->pieces.clear();
     memory_->details.clear();
     memory_->runs.clear();
@@ -60,12 +57,15 @@ class ContourDetails {
   uint64_t unresolved() const { return unresolved_; }
 
  private:
+  using Cell = ContourRings::Cell;
+  using Beside = ContourRoom::Beside;
   struct Piece {
     uint32_t id, next;                // crossings
     uint32_t before = 0, behind = 0;  // crossings that tell about the direction at its ends
     int depth = 0;
     int turn = 0;  // where known: 1: the boundary turns left between its ends, -1: right
     bool has_triangle = false, is_inside = false, is_bent = false;
+    Beside beside = {};
     Vec2 a, b;
     double begin = 0, end = 1;  // orders of a and b
     double bend = 0;  // of an arc: how far its middle is from the chord, to the right; or 0
@@ -75,13 +75,15 @@ class ContourDetails {
   struct Corner {
     bool is_possible = false;
     Vec2 at = {};
-    uint64_t beside = 0;  // the cell that holds the corner, if the piece's own one does not
+    Beside beside;  // if the piece's own cell does not hold the corner
   };
   struct Search {
     size_t piece;
     Vec2 same, other;  // membership as at the piece's middle, and not
+    Beside beside;     // of the cells that `other` may lie in
+    int axis;          // of the side where the normal leaves them
+    bool is_high;
   };
-  using Cell = ContourRings::Cell;
 
   void find_suspects(ContourPoints& points);
   void settle(ContourPoints& points);
@@ -98,15 +100,16 @@ class ContourDetails {
   void drop_tangles();
   /// A crossing that is nearer than that to another tells little about the direction.
   double close() const { return rings_.grid().pitch() / 16; }
-  bool is_in_cell(uint32_t id, Vec2 p) const;
   Corner corner_of(const Piece& piece) const;
-  uint64_t cell_beside(const Piece& piece, Vec2 x) const;
+  Search search_of(size_t number, const Beside& beside) const;
+  void keep_open(std::vector<Search>& searches, std::vector<Search>& closed,
+                 ContourPoints& points) const;
   bool is_in_window(Vec2 p) const;
   Vec2 rounded(Vec2 p) const;
 
   const ContourRings& rings_;
   const double tolerance_, units_;
-  std::unordered_set<uint64_t>& taken_;
+  ContourRoom room_;
   // Kept between calls: fresh memory of this size takes a while to get.
   struct Memory {
     std::vector<uint64_t> bends;  // see find_bends()
