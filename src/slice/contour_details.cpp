@@ -436,7 +436,9 @@ void ContourDetails::keep_open(std::vector<Search>& searches, std::vector<Search
   searches.resize(kept);
 }
 
-void ContourDetails::split(ContourPoints& points) {
+/// From the middle of each piece to where the membership differs, if the piece's cells hold such a
+/// place.
+std::vector<ContourDetails::Search> ContourDetails::find_searches(ContourPoints& points) {
   std::vector<Search> searches, closed, beyond;
   for (size_t i = 0; i < memory_->pieces.size(); ++i)
     searches.push_back(search_of(i, memory_->pieces[i].beside));
@@ -457,7 +459,12 @@ void ContourDetails::split(ContourPoints& points) {
   const auto is_before = [](const Search& a, const Search& b) { return a.piece < b.piece; };
   std::inplace_merge(searches.begin(), searches.end() - static_cast<ptrdiff_t>(beyond.size()),
                      searches.end(), is_before);
-  // Each by itself, so that no window changes what another one finds.
+  return searches;
+}
+
+/// Halves the searches until their ends are so near to each other that either is on the boundary.
+/// Each by itself, so that no window changes what another one finds.
+void ContourDetails::bisect(std::vector<Search>& searches, ContourPoints& points) const {
   std::vector<Search*> open;
   open.reserve(searches.size());
   for (Search& s : searches) open.push_back(&s);
@@ -477,14 +484,21 @@ void ContourDetails::split(ContourPoints& points) {
       (is_same ? s.same : s.other) = (s.same + s.other) * 0.5;
     }
   }
+}
+
+void ContourDetails::split(ContourPoints& points) {
+  std::vector<Search> searches = find_searches(points);
+  bisect(searches, points);
   std::vector<Piece>& halves = memory_->halves;
   halves.clear();
   begin_run();
   for (const Search& s : searches) {
     const Piece& piece = memory_->pieces[s.piece];
     const Vec2 at = (s.same + s.other) * 0.5;
-    const bool is_free = s.beside.place == piece.beside.place || room_.take(s.beside);
-    if (!is_free || !room_.holds(piece.id, s.beside, at)) {
+    const auto is_free = [&] {
+      return s.beside.place == piece.beside.place || room_.take(s.beside);
+    };
+    if (!room_.holds(piece.id, s.beside, at) || !is_free()) {
       ++unresolved_;
       continue;
     }

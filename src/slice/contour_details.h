@@ -94,6 +94,8 @@ class ContourDetails {
   void take_arcs(ContourPoints& points);
   void keep_bent(ContourPoints& points);
   void take_corners(ContourPoints& points);
+  std::vector<Search> find_searches(ContourPoints& points);
+  void bisect(std::vector<Search>& searches, ContourPoints& points) const;
   void split(ContourPoints& points);
   void begin_run();
   void merge_runs();
