@@ -53,6 +53,28 @@ class Settings(Case):
                  "-o", path)
         self.assertAlmostEqual(self.area_of_first_layer(path), 47.5, delta=0.5)
 
+    def test_values_below_0_are_refused(self):
+        contours = {"output": "contours", "contours": {"pitch": -0.5, "tolerance": 0.1}}
+        dense = {"output": "contours", "contours": {"pitch": 0.5, "tolerance": -0.1}}
+        panel = ["--panel", "100,80", "--panel-size", "50,40"]
+        pixels, lines = ["layers"], ["stack.svg", "stack.3mf"]
+        for text, names, slicing in (
+                ("pitch is -0.25; it must be finite and not negative", pixels + lines,
+                 {"pitch": -0.25, "layer_height": 1}),
+                ("pitch is -2; it must be finite and not negative", pixels + lines,
+                 {"pitch": [0.5, -2], "layer_height": 1}),
+                ("is -3; it must be positive and finite", pixels + lines + ["part.sl1"],
+                 {"pitch": 0.5, "layer_height": -3}),
+                ("pitch is -0.5; it must be positive and finite", lines,
+                 {"pitch": 0.5, "layer_height": 1, "outputs": [contours]}),
+                ("tolerance is -0.1; it must be positive and finite", lines,
+                 {"pitch": 0.5, "layer_height": 1, "outputs": [dense]})):
+            model = self.write([0, 0, 0], [10, 8, 4], slicing=slicing)
+            for name in names:
+                options = panel if name.endswith(".sl1") else []
+                self.refuse(1, text, "slice", model, "-o", self.folder / name, *options)
+                self.assertEqual(self.names(), ["model.json"])
+
     def test_fine_contours_keep_their_digits(self):
         path = self.folder / "stack.svg"
         self.msq("slice", "box:0.01,0.01,0.0004", "-p", "0.00005", "-l", "0.00004", "-o", path)

@@ -309,9 +309,9 @@ void run_slice(const Arguments& arguments) {
   msq_slicer_report report = make_slicer(scene, plan, slicer);
   auto output = defaults(msq_output_def_init);
   if (takes_contours(format)) {
-    if (!(contours.pitch > 0) || arguments.has("pitch")) contours.pitch = pitch_of(report);
+    if (contours.pitch == 0 || arguments.has("pitch")) contours.pitch = pitch_of(report);
     if (arguments.has("box")) remove_window(contours);
-    if (!(contours.tolerance > 0)) contours.tolerance = TOLERANCE_OF_PITCH * contours.pitch;
+    if (contours.tolerance == 0) contours.tolerance = TOLERANCE_OF_PITCH * contours.pitch;
     contours.tolerance = arguments.number("tolerance", contours.tolerance);
     output.output = MSQ_LAYER_CONTOURS;
     output.contours = &contours;
