@@ -5,7 +5,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <limits>
 
 #include "failure.h"
 #include "text.h"
@@ -99,12 +98,13 @@ double Arguments::number(std::string_view option, double otherwise) const {
   return *value;
 }
 
-uint64_t Arguments::count(std::string_view option, uint64_t otherwise) const {
+uint64_t Arguments::count(std::string_view option, uint64_t otherwise, uint64_t max,
+                          uint64_t min) const {
   if (!has(option)) return otherwise;
   const std::optional<uint64_t> value = to_count(text(option));
-  if (!value) {
-    refuse(option, in_quotes(text(option)) + " is not a whole number from 0 to " +
-                       std::to_string(std::numeric_limits<uint64_t>::max()));
+  if (!value || *value < min || *value > max) {
+    refuse(option, in_quotes(text(option)) + " is not a whole number from " + std::to_string(min) +
+                       " to " + std::to_string(max));
   }
   return *value;
 }

@@ -28,9 +28,11 @@ class Arguments {
   // Operand i of the command; "" if it was left out.
   const std::string& operand(size_t i) const;
 
-  // Each throws UsageError, with the option and its value, if the text is no such number.
+  // Each throws UsageError, with the option and its value, if the text is no such number, or
+  // one below min or above max.
   double number(std::string_view option, double otherwise) const;
-  uint64_t count(std::string_view option, uint64_t otherwise) const;
+  uint64_t count(std::string_view option, uint64_t otherwise, uint64_t max = UINT64_MAX,
+                 uint64_t min = 0) const;
   // Numbers with commas between them. sizes: how many there may be.
   std::vector<double> numbers(std::string_view option, std::initializer_list<size_t> sizes) const;
   // One number for all three axes, or three.

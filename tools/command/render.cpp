@@ -40,11 +40,7 @@ void read_size(const Arguments& arguments, msq_render_def& def) {
     def.width = side_of(arguments, size[0]);
     def.height = side_of(arguments, size[1]);
   }
-  const uint64_t samples = arguments.count("samples", def.samples);
-  if (samples < 1 || samples > 16) {
-    arguments.refuse("samples", arguments.text("samples") + " is not from 1 to 16");
-  }
-  def.samples = static_cast<uint32_t>(samples);
+  def.samples = static_cast<uint32_t>(arguments.count("samples", def.samples, 16, 1));
 }
 
 void find_direction(const msq_camera& camera, double direction[3]) {

@@ -99,9 +99,7 @@ bool has_scale(const msq_model* model, uint32_t region, uint32_t scale) {
 }
 
 uint32_t index_of(const Arguments& arguments, const char* option, uint64_t otherwise) {
-  const uint64_t index = arguments.count(option, otherwise);
-  if (index > 4096) arguments.refuse(option, arguments.text(option) + " is above 4096");
-  return static_cast<uint32_t>(index);
+  return static_cast<uint32_t>(arguments.count(option, otherwise, 4096));
 }
 
 }  // namespace
@@ -117,11 +115,7 @@ bool is_box(const std::string& text) {
 Context make_context(const Arguments& arguments) {
   if (arguments.has("quiet")) be_quiet();
   auto def = defaults(msq_context_def_init);
-  const uint64_t threads = arguments.count("threads", 0);
-  if (threads > 1024) {
-    arguments.refuse("threads", arguments.text("threads") + " is above the limit of 1024");
-  }
-  def.threads = static_cast<uint32_t>(threads);
+  def.threads = static_cast<uint32_t>(arguments.count("threads", 0, 1024));
   def.memory_limit = arguments.bytes("memory");
   def.warning = on_warning;
   Context context;

@@ -190,9 +190,7 @@ void create_sl1(const Arguments& arguments, const Scene& scene, const msq_slicer
   def.layer_height = layer_height;
   def.exposure_time = arguments.number("exposure", def.exposure_time);
   def.initial_exposure_time = arguments.number("first-exposure", def.initial_exposure_time);
-  const uint64_t faded = arguments.count("fade", def.faded_layers);
-  if (faded > UINT32_MAX) arguments.refuse("fade", arguments.text("fade") + " layers are too many");
-  def.faded_layers = static_cast<uint32_t>(faded);
+  def.faded_layers = static_cast<uint32_t>(arguments.count("fade", def.faded_layers, UINT32_MAX));
   if (arguments.has("material")) def.material = arguments.text("material").c_str();
   if (!arguments.has("no-thumbnails")) def.thumbnail_model = scene.model.get();
   Work work("drawing thumbnails");

@@ -33,11 +33,7 @@ double side_of_cubes(const double min[3], const double max[3], double count) {
 // Two points in each of about as many cubes as the number requests.
 msq_points_def make_sample(const Arguments& arguments, const double min[3], const double max[3]) {
   constexpr uint64_t MOST = 1'000'000'000'000;
-  const uint64_t wanted = arguments.count("samples", 1'000'000);
-  if (wanted < 2 || wanted > MOST) {
-    arguments.refuse("samples",
-                     arguments.text("samples") + " is not from 2 to " + std::to_string(MOST));
-  }
+  const uint64_t wanted = arguments.count("samples", 1'000'000, MOST, 2);
   auto sample = defaults(msq_points_def_init);
   sample.kind = MSQ_POINTS_STRATIFIED;
   sample.per_cell = POINTS_A_CELL;

@@ -175,10 +175,7 @@ Structure make_waves(const Arguments& arguments, const Place& place) {
     arguments.refuse("volume-fraction", "0 is not above 0");
   }
   def.seed = arguments.count("seed", 0);
-  const uint64_t count = arguments.count("count", def.count);
-  if (count > UINT32_MAX)
-    arguments.refuse("count", arguments.text("count") + " waves are too many");
-  def.count = static_cast<uint32_t>(count);
+  def.count = static_cast<uint32_t>(arguments.count("count", def.count, UINT32_MAX));
   if (arguments.has("cones")) {
     const std::vector<double> angles = arguments.numbers("cones", {3});
     std::copy(angles.begin(), angles.end(), def.cone_angles);
