@@ -108,6 +108,7 @@ Output write_slicing(ModelWriter& writer, const msq_slicer_def& given) {
   std::vector<msq_output_def> outputs;
   std::vector<msq_contours_def> contours;
   read_outputs(def, outputs, contours);
+  const ModelWriter::Within within(writer, "slicing");
   return writer.members_of(def);
 }
 
@@ -118,16 +119,17 @@ Output write_view(ModelWriter& writer, const msq_camera* camera, const msq_rende
   ViewDef def = defaults_of<ViewDef>();
   def.camera = read_def(camera, def.camera, "camera");
   def.render = read_def(render, def.render, "render");
+  const ModelWriter::Within within(writer, "view");
   return writer.members_of(def);
 }
 
 std::string json_of(const Model& model, const msq_json_def& def) {
   const WriterOptions options{def.base_directory ? def.base_directory : "",
                               or_default(def.max_numbers, default_numbers)};
+  ModelWriter writer(options);
   Output document;
   document.add("msq_model", Output::of_raw(std::to_string(document_version)));
-  if (def.title) document.add("title", Output::of_raw(json_quoted(def.title)));
-  ModelWriter writer(options);
+  if (def.title) document.add("title", Output::of_raw(writer.text("title", def.title)));
   writer.write(model, document);
   if (def.slicing) document.add("slicing", write_slicing(writer, *def.slicing));
   if (def.camera || def.render) document.add("view", write_view(writer, def.camera, def.render));

@@ -51,14 +51,16 @@ class MemberWriter final : public DefinitionWalk {
         known |= static_cast<uint32_t>(choice.value);
         list.items.push_back(Output::of_raw(json_quoted(choice.name)));
       }
-    if (known != value) fail(Status::argument, "%s is %u, which msq does not know", key, value);
+    if (known != value)
+      fail(Status::argument, "%s is %u, which msq does not know", writer_.place_of(key).c_str(),
+           value);
     to_.add(key, std::move(list));
   }
   void text(const char* key, const char*& value) override {
-    if (value) raw(key, json_quoted(value));
+    if (value) raw(key, writer_.text(key, value));
   }
   void file(const char* key, const char*& value) override {
-    if (value) raw(key, json_quoted(writer_.path(value)));
+    if (value) raw(key, writer_.text(key, writer_.path(value)));
   }
   void param(const char* key, msq_param& value) override {
     if (value.field)
@@ -68,6 +70,7 @@ class MemberWriter final : public DefinitionWalk {
   }
   void image(const char* key, msq_image& image, ImageSource& source) override {
     if (!image.values) return;  // the default
+    const ModelWriter::Within within(writer_, key);
     Output of_image;
     MemberWriter in(writer_, of_image);
     in.file("file", source.file);
@@ -127,10 +130,12 @@ class MemberWriter final : public DefinitionWalk {
   void equal_counts(const char*, uint64_t, const char*, uint64_t) override {}
 
   void members(const char* key, const Part& part, const Part& defaults) override {
-    Output within = document::written(writer_, part, defaults);
-    if (!within.members.empty()) to_.add(key, std::move(within));
+    const ModelWriter::Within within(writer_, key);
+    Output written = document::written(writer_, part, defaults);
+    if (!written.members.empty()) to_.add(key, std::move(written));
   }
   bool section(const char* key, bool is_there, const Part& part, const Part& defaults) override {
+    const ModelWriter::Within within(writer_, key);
     if (is_there) to_.add(key, document::written(writer_, part, defaults));
     return is_there;
   }
@@ -142,10 +147,13 @@ class MemberWriter final : public DefinitionWalk {
                 const Part& defaults) override {
     if (count == 0) return 0;
     prepare(count);
+    const ModelWriter::Within within(writer_, key);
     Output list{Output::Kind::list, {}, {}, {}};
-    for (uint64_t i = 0; i < count; ++i)
+    for (uint64_t i = 0; i < count; ++i) {
+      const ModelWriter::Within item(writer_, i);
       list.items.push_back(document::written(
           writer_, [&](DefinitionWalk& in) { part(in, i); }, defaults));
+    }
     to_.add(key, std::move(list));
     return count;
   }
@@ -154,17 +162,18 @@ class MemberWriter final : public DefinitionWalk {
   void files(const char* key, const char* const* paths, uint64_t count) {
     Output list{Output::Kind::list, {}, {}, {}};
     for (uint64_t i = 0; i < count; ++i)
-      list.items.push_back(Output::of_raw(json_quoted(writer_.path(paths[i]))));
+      list.items.push_back(Output::of_raw(writer_.text(key, writer_.path(paths[i]))));
     to_.add(key, std::move(list));
   }
   static bool is_known(int32_t value, Choices choices) {
     return std::any_of(choices.begin(), choices.end(),
                        [&](const Choice& choice) { return choice.value == value; });
   }
-  static std::string name_of(const char* key, int32_t value, Choices choices) {
+  std::string name_of(const char* key, int32_t value, Choices choices) const {
     for (const Choice& choice : choices)
       if (choice.value == value) return choice.name;
-    fail(Status::argument, "%s is %d, which msq does not know", key, value);
+    fail(Status::argument, "%s is %d, which msq does not know", writer_.place_of(key).c_str(),
+         value);
   }
   static std::string listed(std::span<const double> values) {
     std::string text = "[";
@@ -175,14 +184,19 @@ class MemberWriter final : public DefinitionWalk {
 
   template <class Handle>
   void put(const char* key, const Handle* handle) {
-    if (handle) to_.add(key, writer_.object(api::object(handle, key)));
+    if (!handle) return;
+    const ModelWriter::Within within(writer_, key);
+    to_.add(key, writer_.object(api::object(handle, key)));
   }
   template <class Handle>
   void put_all(const char* key, const Handle* const* handles, uint64_t count) {
     if (!handles) return;
+    const ModelWriter::Within within(writer_, key);
     Output list{Output::Kind::list, {}, {}, {}};
-    for (uint64_t i = 0; i < count; ++i)
+    for (uint64_t i = 0; i < count; ++i) {
+      const ModelWriter::Within item(writer_, i);
       list.items.push_back(writer_.object(api::object(handles[i], key)));
+    }
     to_.add(key, std::move(list));
   }
 
@@ -219,7 +233,7 @@ class MemberWriter final : public DefinitionWalk {
   std::string values_of(const msq_image& image) const {
     uint64_t count = 1;
     for (uint64_t size : image.size) count = checked_product(count, size, "an image");
-    writer_.check_count("an image", count);
+    writer_.check_count("values", count);
     const auto as = [&]<class T>(const T* values) {
       return lines(values, count, 1,
                    [](T value) { return number_text(static_cast<double>(value)); });
@@ -264,8 +278,8 @@ Output written(ModelWriter& writer, const DefinitionWalk::Part& part,
   });
   for (const auto& [key, value] : all.members)
     if (!is_finite(value))
-      fail(Status::argument, "%s is %s; a document has finite numbers only", key.c_str(),
-           value.raw.substr(0, 60).c_str());
+      fail(Status::argument, "%s is %s; a document has finite numbers only",
+           writer.place_of(key).c_str(), value.raw.substr(0, 60).c_str());
   return all;
 }
 

@@ -45,15 +45,10 @@ void give_values(const Image& image, msq_image& def) {
   });
 }
 
-[[noreturn]] void refuse(const char* what) {
-  fail(Status::unsupported,
-       "%s is computed by the host, or is too large for msq to keep its definition; it cannot be "
-       "written",
-       what);
-}
-
+/// Calls body(key, definition) for the definition that an object keeps. Returns whether it keeps
+/// one.
 template <class Body>
-void visit(const Shape& shape, Body&& body) {
+bool visit(const Shape& shape, Body&& body) {
   const auto mesh = [&](const char* key, msq_mesh_def def) {
     const auto& with_arrays = dynamic_cast<const Mesh&>(shape);
     def.vertices = with_arrays.vertices().data();
@@ -66,58 +61,54 @@ void visit(const Shape& shape, Body&& body) {
     give_values(dynamic_cast<const Voxels&>(shape).image(), def.def.image);
     body(key, def);
   };
-  if (!(if_kept<FileDef>(shape, "file", body) || if_kept<msq_mesh_def>(shape, "mesh", mesh) ||
-        if_kept<BoxDef>(shape, "box", body) || if_kept<SphereDef>(shape, "sphere", body) ||
-        if_kept<CylinderDef>(shape, "cylinder", body) ||
-        if_kept<AllSpaceDef>(shape, "all_space", body) ||
-        if_kept<VoxelsDef>(shape, "voxels", voxels) || if_kept<PlacedDef>(shape, "placed", body) ||
-        if_kept<BooleanDef>(shape, "boolean", body) || if_kept<OffsetDef>(shape, "offset", body)))
-    refuse("a shape");
+  return if_kept<FileDef>(shape, "file", body) || if_kept<msq_mesh_def>(shape, "mesh", mesh) ||
+         if_kept<BoxDef>(shape, "box", body) || if_kept<SphereDef>(shape, "sphere", body) ||
+         if_kept<CylinderDef>(shape, "cylinder", body) ||
+         if_kept<AllSpaceDef>(shape, "all_space", body) ||
+         if_kept<VoxelsDef>(shape, "voxels", voxels) || if_kept<PlacedDef>(shape, "placed", body) ||
+         if_kept<BooleanDef>(shape, "boolean", body) || if_kept<OffsetDef>(shape, "offset", body);
 }
 
 template <class Body>
-void visit(const Field& field, Body&& body) {
+bool visit(const Field& field, Body&& body) {
   const auto grid = [&](const char* key, GridDef def) {
     give_values(dynamic_cast<const GridField&>(field).image(), def.def.image);
     body(key, def);
   };
-  if (!(if_kept<GradientDef>(field, "gradient", body) ||
-        if_kept<msq_radial_field_def>(field, "radial", body) ||
-        if_kept<MapDef>(field, "map", body) || if_kept<GridDef>(field, "grid", grid) ||
-        if_kept<msq_expression_field_def>(field, "expression", body) ||
-        if_kept<msq_shape_distance_field_def>(field, "shape_distance", body)))
-    refuse("a field");
+  return if_kept<GradientDef>(field, "gradient", body) ||
+         if_kept<msq_radial_field_def>(field, "radial", body) ||
+         if_kept<MapDef>(field, "map", body) || if_kept<GridDef>(field, "grid", grid) ||
+         if_kept<msq_expression_field_def>(field, "expression", body) ||
+         if_kept<msq_shape_distance_field_def>(field, "shape_distance", body);
 }
 
 template <class Body>
-void visit(const Structure& structure, Body&& body) {
-  if (!(if_kept<msq_lattice_def>(structure, "lattice", body) ||
-        if_kept<msq_plate_lattice_def>(structure, "plate_lattice", body) ||
-        if_kept<msq_foam_def>(structure, "foam", body) ||
-        if_kept<msq_functional_def>(structure, "functional", body) ||
-        if_kept<msq_waves_def>(structure, "waves", body) ||
-        if_kept<msq_beams_def>(structure, "beams", body) ||
-        if_kept<StructureBooleanDef>(structure, "boolean", body) ||
-        if_kept<StructureBlendDef>(structure, "blend", body) ||
-        if_kept<StructureSmoothBooleanDef>(structure, "smooth_boolean", body)))
-    refuse("a structure");
+bool visit(const Structure& structure, Body&& body) {
+  return if_kept<msq_lattice_def>(structure, "lattice", body) ||
+         if_kept<msq_plate_lattice_def>(structure, "plate_lattice", body) ||
+         if_kept<msq_foam_def>(structure, "foam", body) ||
+         if_kept<msq_functional_def>(structure, "functional", body) ||
+         if_kept<msq_waves_def>(structure, "waves", body) ||
+         if_kept<msq_beams_def>(structure, "beams", body) ||
+         if_kept<StructureBooleanDef>(structure, "boolean", body) ||
+         if_kept<StructureBlendDef>(structure, "blend", body) ||
+         if_kept<StructureSmoothBooleanDef>(structure, "smooth_boolean", body);
 }
 
 template <class Body>
-void visit(const Material& material, Body&& body) {
-  if (!(if_kept<msq_material_def>(material, "plain", body) ||
-        if_kept<BlendDef>(material, "blend", body)))
-    refuse("a material");
+bool visit(const Material& material, Body&& body) {
+  return if_kept<msq_material_def>(material, "plain", body) ||
+         if_kept<BlendDef>(material, "blend", body);
 }
 
 template <class Body>
-void visit(const Model& model, Body&& body) {
-  if (!if_kept<ModelDef>(model, "model", body)) refuse("a model");
+bool visit(const Model& model, Body&& body) {
+  return if_kept<ModelDef>(model, "model", body);
 }
 
 }  // namespace
 
-/// Counts how often each object is used in a model.
+/// Counts how often each object is used in a model, as far as objects keep definitions.
 class ModelWriter::Counter final : public PassiveWalk {
  public:
   explicit Counter(std::unordered_map<const Described*, Use>& uses) : uses_(uses) {}
@@ -185,13 +176,17 @@ Output ModelWriter::named(const Object& object, Section& section, Define&& defin
   return Output::of_raw(json_quoted(use.name));
 }
 
-#define MSQ_WRITE(Object, section)                                                              \
-  Output ModelWriter::object(const Object& object) {                                            \
-    return named(object, section, [&] {                                                         \
-      Output kind;                                                                              \
-      visit(object, [&](const char* key, const auto& def) { kind.add(key, members_of(def)); }); \
-      return kind;                                                                              \
-    });                                                                                         \
+#define MSQ_WRITE(Object, section)                                               \
+  Output ModelWriter::object(const Object& object) {                             \
+    return named(object, section, [&] {                                          \
+      Output kind;                                                               \
+      const bool is_kept = visit(object, [&](const char* key, const auto& def) { \
+        const Within within(*this, key);                                         \
+        kind.add(key, members_of(def));                                          \
+      });                                                                        \
+      if (!is_kept) refuse("a " + std::string(section.one));                     \
+      return kind;                                                               \
+    });                                                                          \
   }
 MSQ_WRITE(Shape, shapes_)
 MSQ_WRITE(Field, fields_)
@@ -201,8 +196,40 @@ MSQ_WRITE(Material, materials_)
 
 Output ModelWriter::object(const Model& model) {
   Output members;
-  visit(model, [&](const char*, const ModelDef& def) { members = members_of(def); });
+  if (!visit(model, [&](const char*, const ModelDef& def) { members = members_of(def); }))
+    refuse("a model");
   return members;
+}
+
+ModelWriter::Within::Within(ModelWriter& writer, std::string_view key)
+    : writer_(writer), size_(writer.place_.size()) {
+  writer.place_ = writer.place_of(key);
+}
+
+ModelWriter::Within::Within(ModelWriter& writer, uint64_t item)
+    : writer_(writer), size_(writer.place_.size()) {
+  writer.place_.append("[").append(std::to_string(item)).append("]");
+}
+
+std::string ModelWriter::place_of(std::string_view key) const {
+  std::string place = place_;
+  if (!place.empty()) place += '.';
+  return place.append(key);
+}
+
+void ModelWriter::refuse(const std::string& what) const {
+  fail(Status::unsupported,
+       "%s: %s is computed by the host, or is too large for msq to keep its definition; it cannot "
+       "be written",
+       place_.empty() ? "the document" : place_.c_str(), what.c_str());
+}
+
+std::string ModelWriter::text(std::string_view key, std::string_view text) const {
+  try {
+    return json_quoted(text);
+  } catch (const Error& error) {
+    throw Error(error.status, place_of(key) + ": " + error.what());
+  }
 }
 
 std::string ModelWriter::path(const char* file) const {
@@ -218,7 +245,7 @@ void ModelWriter::check_count(const char* key, uint64_t numbers) const {
     fail(Status::limit,
          "%s would be %llu numbers in the document; max_numbers is %llu. Shapes and images that "
          "were read from files are written as the paths of these",
-         key, static_cast<unsigned long long>(numbers),
+         place_of(key).c_str(), static_cast<unsigned long long>(numbers),
          static_cast<unsigned long long>(options_.max_numbers));
 }
 
