@@ -8,6 +8,7 @@
 #include "fill/chain.h"
 #include "fill/order.h"
 #include "fill/round_corners.h"
+#include "structure/common/plane_cells.h"
 
 namespace msq {
 
@@ -53,8 +54,9 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
   };
   // A coordinate is rounded by half a unit.
   const Box2 window = Box2{place(polygon.min()), place(polygon.max())}.grown(plan.scale);
-  CountedVector<Polyline> lines =
-      chain(structure.wall_lines({plan.z, window, (1 - dropped) * plan.tolerance}));
+  const WallSection section{plan.z, window, (1 - dropped) * plan.tolerance};
+  structure.for_each_grid([&](const Neighbourhood& grid) { require_finite_cells(grid, section); });
+  CountedVector<Polyline> lines = chain(structure.wall_lines(section));
   const Rounding rounding(plan);
   CountedVector<IntPath> parts;
   JobPoll poll(current_job());

@@ -10,12 +10,22 @@ static void fill_lines(void** state) {
   msq_context* small = make_context_of(1, 0, 20000);
   msq_structure *foam = make_foam_of(context, 5), *lattice = make_lattice(context);
   msq_structure* gyroid = make_sheet(context, MSQ_FUNCTION_GYROID, 8);
-  msq_structure *of_small = make_foam_of(small, 5), *united, *within, *blended;
+  msq_structure *of_small = make_foam_of(small, 5), *united, *within, *blended, *plates, *distant;
+  msq_plate_lattice_def plate_def;
+  msq_foam_def foam_def;
   const msq_structure* members[2];
   const msq_param half = {0.5, NULL};
   const msq_fill_def square = square_def(1);
   msq_fill* made = make_fill(context, foam, &square);
   (void)state;
+  assert_ok(msq_plate_lattice_def_init(&plate_def, sizeof plate_def));
+  plate_def.thickness.value = 0.1;
+  assert_ok(msq_structure_plate_lattice(context, &plate_def, &plates));
+  assert_ok(msq_foam_def_init(&foam_def, sizeof foam_def));
+  foam_def.radius.value = 0.1;
+  set_cell(&foam_def.grid, 0.5);
+  foam_def.grid.origin[0] = foam_def.grid.origin[1] = 1e308;
+  assert_ok(msq_structure_foam(context, &foam_def, &distant));
   members[0] = lattice;
   members[1] = foam;
   assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, members, 2, &united));
@@ -69,6 +79,21 @@ static void fill_lines(void** state) {
     WRONG(ARGUMENT, "min_length is -2", def->min_length = -2);
     WRONG(ARGUMENT, "pair_distance is -3", def->pair_distance = -3);
     WRONG(ARGUMENT, "corner_distance is -4", def->corner_distance = -4);
+    /* coordinates overflow */
+    for (int i = 0; i < 2; ++i) {
+      WRONG(LIMIT, "1e+308|z 1 is too far from the grid's origin|1.67772e+07 cells",
+            def->origin[i] = 1e308);
+      WRONG(LIMIT, "-1e+308|z 1 is too far|1.67772e+07 cells", structure = gyroid;
+            def->origin[i] = -1e308);
+      WRONG(LIMIT, "1e+308|z 1 is too far|1.67772e+07 cells", structure = plates;
+            def->origin[i] = 1e308);
+    }
+    WRONG(LIMIT, "at z 1e+308 is too far from the grid's origin (0, 0, 0)", def->z = 1e308);
+    WRONG(LIMIT, "1e+308) at z 1e+308 is too far", structure = gyroid;
+          def->origin[0] = def->origin[1] = def->z = 1e308);
+    WRONG(LIMIT, "too far from the grid's origin (1e+308, 1e+308, 0)", structure = distant);
+    WRONG(LIMIT, "from cell 2e+199 to cell 2e+199 along axis 1; the limit is 1.67772e+07",
+          def->origin[1] = 1e200);
     /* a cell is 8e60 units wide, and a line runs through the corner */
     WRONG(LIMIT, "the limit is 2^60", structure = gyroid; def->z = 0; def->scale = 1e-60);
     WRONG(LIMIT, "memory_limit", in = small; structure = of_small);
@@ -101,6 +126,8 @@ static void fill_lines(void** state) {
     TRY(msq_fill_info(fill, report));
   }
   msq_fill_release(made);
+  msq_structure_release(distant);
+  msq_structure_release(plates);
   msq_structure_release(blended);
   msq_structure_release(within);
   msq_structure_release(united);

@@ -9,11 +9,33 @@
 
 namespace msq {
 
-void require_in_cells(const Neighbourhood& grid, const WallSection& section) {
+namespace {
+
+Box3 box_in_grid(const Neighbourhood& grid, const WallSection& section) {
   const Box2& w = section.window;
-  Box3 box = grid.to_grid(Box3{{w.min.x, w.min.y, section.z}, {w.max.x, w.max.y, section.z}});
-  box = {box.min - grid.cell_size, box.max + grid.cell_size};
-  require_in_cells(grid, box);
+  return grid.to_grid(Box3{{w.min.x, w.min.y, section.z}, {w.max.x, w.max.y, section.z}});
+}
+
+}  // namespace
+
+void require_in_cells(const Neighbourhood& grid, const WallSection& section) {
+  const Box3 box = box_in_grid(grid, section);
+  require_in_cells(grid, {box.min - grid.cell_size, box.max + grid.cell_size});
+}
+
+void require_finite_cells(const Neighbourhood& grid, const WallSection& section) {
+  const Box3 box = box_in_grid(grid, section);
+  bool are_finite = true;
+  for (int axis = 0; axis < 3; ++axis)
+    are_finite &= std::isfinite(box.min[axis] / grid.cell_size[axis]) &&
+                  std::isfinite(box.max[axis] / grid.cell_size[axis]);
+  if (are_finite) return;
+  const Box2& w = section.window;
+  const Vec3 o = grid.origin;
+  fail(Status::limit,
+       "the section from (%g, %g) to (%g, %g) at z %g is too far from the grid's origin (%g, %g, "
+       "%g); the limit is %g cells",
+       w.min.x, w.min.y, w.max.x, w.max.y, section.z, o.x, o.y, o.z, max_cell_index);
 }
 
 void require_in_cells(const Neighbourhood& grid, const Box3& box) {

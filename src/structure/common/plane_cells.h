@@ -10,7 +10,9 @@ namespace msq {
 
 /// Throws Error(limit) if the section, or a cell next to it, is beyond max_cell_index.
 void require_in_cells(const Neighbourhood& grid, const WallSection& section);
-/// The same of a box in grid coordinates.
+/// Throws Error(limit) if it is so far that its cells are no numbers: coordinates overflow.
+void require_finite_cells(const Neighbourhood& grid, const WallSection& section);
+/// The same as the first of a box in grid coordinates.
 void require_in_cells(const Neighbourhood& grid, const Box3& box);
 
 /// A linear map of grid coordinates.
