@@ -153,7 +153,7 @@ class Field(Handle):
 Param = Union[float, Field]  #: a number, or a field of it
 
 
-def set_param(target: _abi.msq_param, value: Param) -> None:
+def set_param(target: _abi.msq_param, name: str, value: Param) -> None:
     """Writes a parameter, as lend() does."""
     if isinstance(value, Field):
         lend(target, "field", value)
@@ -162,8 +162,7 @@ def set_param(target: _abi.msq_param, value: Param) -> None:
         target.field = ctypes.POINTER(_abi.msq_field)()
     else:
         hint = "; Field.host makes a field of a function" if callable(value) else ""
-        raise TypeError(f"a parameter is of type {type(value).__name__}; it must be a number or a "
-                        f"Field{hint}")
+        raise TypeError(f"{name} is a {type(value).__name__}; it must be a number or a Field{hint}")
 
 
 def set_parameters(definition: Any, parameters: Optional[Mapping[str, float]]) -> None:

@@ -29,9 +29,10 @@ class Material(Handle):
         definition = defaults(_abi.msq_material_def)
         definition.id = unsigned(id, 32, "id")
         values = (_abi.msq_channel * len(channels))()
-        for channel, name, value in zip(values, encoded(list(channels)), channels.values()):
-            channel.name = name
-            set_param(channel.value, value)
+        names = encoded(list(channels))
+        for channel, encoded_name, (name, value) in zip(values, names, channels.items()):
+            channel.name = encoded_name
+            set_param(channel.value, name, value)
         definition.channels = values
         definition.channel_count = len(values)
         context = context_of(context, *channels.values())
@@ -50,7 +51,7 @@ class Material(Handle):
             if not isinstance(material, Material):
                 raise TypeError(f"{name} is a {type(material).__name__}; it must be a Material")
         number, part = unsigned(id, 32, "id"), _abi.msq_param()
-        set_param(part, fraction)
+        set_param(part, "fraction", fraction)
         context = context_of(context, a, b, fraction)
         made = cls._wrap(cls._create(lib.msq_material_blend, context._ref, number, a._ref, b._ref,
                                      ctypes.byref(part)))

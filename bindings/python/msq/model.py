@@ -78,7 +78,7 @@ class Model(Handle):
         lend_material(scales[0], "material", material)
         for scale, part in zip(list(scales)[1:], parts):
             lend(scale, "structure", part.structure)
-            set_param(scale.skin, part.skin)
+            set_param(scale.skin, "skin", part.skin)
             lend_material(scale, "material", part.material)
             lend_material(scale, "skin_material", part.skin_material)
         definition = defaults(_abi.msq_model_def)

@@ -70,7 +70,7 @@ class Structure(Handle):
         """A structure that becomes another one: a where the fraction is 0, b where it is 1. In between
         it holds the points where (1 - f) times the signed distance of a plus f times that of b is
         at most 0."""
-        return Structure._of_two(lib.msq_structure_blend, (), a, b, fraction)
+        return Structure._of_two(lib.msq_structure_blend, (), a, b, "fraction", fraction)
 
     @classmethod
     @remembers
@@ -95,16 +95,17 @@ class Structure(Handle):
     @staticmethod
     def _smooth(operation: str, a: Structure, b: Structure, radius: Param) -> Structure:
         return Structure._of_two(lib.msq_structure_smooth_boolean,
-                                 (constant("MSQ_BOOLEAN_", operation, "operation"),), a, b, radius)
+                                 (constant("MSQ_BOOLEAN_", operation, "operation"),), a, b,
+                                 "radius", radius)
 
     @staticmethod
-    def _of_two(function: Any, first: tuple, a: Structure, b: Structure,
+    def _of_two(function: Any, first: tuple, a: Structure, b: Structure, name: str,
                 param: Param) -> Structure:
-        for structure, name in ((a, "a"), (b, "b")):
+        for structure, which in ((a, "a"), (b, "b")):
             if not isinstance(structure, Structure):
-                raise TypeError(f"{name} is a {type(structure).__name__}; it must be a Structure")
+                raise TypeError(f"{which} is a {type(structure).__name__}; it must be a Structure")
         value = _abi.msq_param()
-        set_param(value, param)
+        set_param(value, name, param)
         made = Structure._wrap(Structure._create(function, *first, a._ref, b._ref,
                                                  ctypes.byref(value)))
         made.context = a.context
@@ -250,7 +251,7 @@ class Lattice(Structure):
         definition = defaults(_abi.msq_lattice_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         cells_kept = set_period(definition, period), set_warp(definition, warp)
-        set_param(definition.radius, radius)
+        set_param(definition.radius, "radius", radius)
         definition.clusters = unsigned(clusters, 32, "clusters")
         if cell_choice is None:
             kept = [as_unit_cell(unit_cell)]
@@ -262,7 +263,7 @@ class Lattice(Structure):
             definition.cells = (_abi.msq_unit_cell_def * len(kept))(
                 *(cell._definition for cell in kept))
             definition.cell_count = len(kept)
-            set_param(definition.cell_choice, cell_choice)
+            set_param(definition.cell_choice, "cell_choice", cell_choice)
         self._make(context_of(context, radius, cell_choice), lib.msq_structure_lattice, definition)
         del cells_kept  # the call copies them
 
@@ -302,8 +303,8 @@ class PlateLattice(Structure):
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_plate_lattice_def)
         set_grid(definition.grid, cell_size, origin, rotation)
-        set_param(definition.thickness, thickness)
-        set_param(definition.radius, radius)
+        set_param(definition.thickness, "thickness", thickness)
+        set_param(definition.radius, "radius", radius)
         struts = as_unit_cell(unit_cell)
         has_struts = definition.radius.field or definition.radius.value != 0
         if has_struts:
@@ -375,10 +376,10 @@ class Foam(Structure):
                  warp: Optional[AnyWarp] = None, context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
         set_grid(definition.grid, cell_size, origin, rotation)
-        set_param(definition.radius, radius)
-        set_param(definition.density, density)
-        set_param(definition.wall_thickness, wall_thickness)
-        set_param(definition.vent_radius, vent_radius)
+        set_param(definition.radius, "radius", radius)
+        set_param(definition.density, "density", density)
+        set_param(definition.wall_thickness, "wall_thickness", wall_thickness)
+        set_param(definition.vent_radius, "vent_radius", vent_radius)
         definition.stretch[:], definition.weight = triple(stretch, "stretch"), weight
         definition.jitter, definition.seed = jitter, unsigned(seed, 64, "seed")
         definition.method = constant("MSQ_FOAM_", method, "method")
@@ -504,8 +505,8 @@ class Functional(Structure):
             raise TypeError("Functional takes a function's name or an expression, one of the two")
         definition = defaults(_abi.msq_functional_def)
         set_grid(definition.grid, cell_size, origin, rotation)
-        set_param(definition.level, level)
-        set_param(definition.thickness, thickness)
+        set_param(definition.level, "level", level)
+        set_param(definition.thickness, "thickness", thickness)
         definition.kind = constant("MSQ_FUNCTIONAL_", kind, "kind")
         definition.clusters = unsigned(clusters, 32, "clusters")
         if expression is None:
@@ -537,7 +538,7 @@ class Waves(Structure):
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_waves_def)
         set_grid(definition.grid, wavelength, origin, rotation)
-        set_param(definition.level, level)
+        set_param(definition.level, "level", level)
         definition.kind = constant("MSQ_FUNCTIONAL_", kind, "kind")
         definition.count = unsigned(count, 32, "count")
         definition.seed = unsigned(seed, 64, "seed")
@@ -590,7 +591,7 @@ class HostFunctional(Structure):
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_host_function_def)
         set_grid(definition.grid, cell_size, origin, rotation)
-        set_param(definition.level, level)
+        set_param(definition.level, "level", level)
         definition.kind = constant("MSQ_FUNCTIONAL_", kind, "kind")
         definition.clusters = unsigned(clusters, 32, "clusters")
         definition.lipschitz = lipschitz

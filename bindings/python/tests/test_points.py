@@ -91,9 +91,33 @@ class Answers(unittest.TestCase):
             msq.PointGrid((0, 0, 0), 0.5, (3, 4)).coordinates(0, 1)
 
     def test_parameters_are_numbers_or_fields(self):
-        for wrong, text in (("0.5", "type str"), (None, "NoneType"), (lambda p: 0.3, "Field.host")):
+        for wrong, text in (("0.5", "radius is a str; it must be a number or a Field$"),
+                            (None, "radius is a NoneType"), (lambda p: 0.3, "Field.host")):
             with self.assertRaisesRegex(TypeError, text):
                 msq.Lattice("bcc", cell_size=4, radius=wrong)
+        foam = msq.Foam(cell_size=4, radius=0.5)
+        box = msq.Shape.box((0, 0, 0), (1, 1, 1))
+        plain = msq.Material(1, red=1)
+        for name, make in (
+                ("cell_choice", lambda: msq.Lattice(["bcc", "octet"], cell_size=4, radius=1,
+                                                    cell_choice="x")),
+                ("thickness", lambda: msq.PlateLattice("bcc", cell_size=4, thickness="x")),
+                ("radius", lambda: msq.PlateLattice("bcc", cell_size=4, thickness=1, radius="x")),
+                ("radius", lambda: msq.Foam(cell_size=4, radius="x")),
+                ("density", lambda: msq.Foam(cell_size=4, radius=0.5, density="x")),
+                ("wall_thickness", lambda: msq.Foam(cell_size=4, radius=0.5, wall_thickness="x")),
+                ("vent_radius", lambda: msq.Foam(cell_size=4, radius=0.5, vent_radius="x")),
+                ("level", lambda: msq.Functional("gyroid", cell_size=4, level="x")),
+                ("thickness", lambda: msq.Functional("gyroid", cell_size=4, thickness="x")),
+                ("level", lambda: msq.Waves(level="x")),
+                ("level", lambda: msq.HostFunctional(lambda p: p[:, 0], level="x")),
+                ("fraction", lambda: msq.Structure.blend(foam, foam, "x")),
+                ("radius", lambda: msq.Structure.smooth_union(foam, foam, "x")),
+                ("skin", lambda: msq.Model(box, msq.Scale(foam, skin="x"))),
+                ("green", lambda: msq.Material(1, red=1, green="x")),
+                ("fraction", lambda: msq.Material.blend(1, plain, plain, "x"))):
+            with self.assertRaisesRegex(TypeError, f"^{name} is a str; it must be a number"):
+                make()
         for number in (0.5, 1, np.float32(0.5), np.array(0.5)):
             msq.Lattice("bcc", cell_size=4, radius=number).close()
 
