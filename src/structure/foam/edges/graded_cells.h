@@ -41,6 +41,8 @@ class GradedCells {
   /// Fills `neighbours` with seeds whose planes bound the cell, and perhaps others. The box holds
   /// the vertices. All in foam units from the seed.
   void find_faces(std::vector<Vec3>& neighbours, Box3& box);
+  /// The cell, if a walk found it: its planes with edges are those of find_faces(), in order.
+  const VoronoiCell* walked() const { return way_ == Way::walked ? &cell_ : nullptr; }
 
  private:
   struct Neighbour {

@@ -12,6 +12,7 @@
 #include "structure/foam/edges/brick_cells.h"
 #include "structure/foam/edges/graded_cells.h"
 #include "structure/foam/edges/weighted_cells.h"
+#include "structure/foam/walls/face_areas.h"
 #include "structure/foam/walls/facet_faces.h"
 
 namespace msq {
@@ -40,6 +41,28 @@ void add_areas(const std::vector<Vec3>& neighbours, double empty_radius, FacePol
   }
 }
 
+using PlanesUsed = std::array<bool, VoronoiCell::max_planes>;
+
+/// Which planes have an edge.
+PlanesUsed planes_used(const VoronoiCell& cell) {
+  PlanesUsed used{};
+  cell.for_each_edge(0, [&](size_t, size_t, uint32_t a, uint32_t b) { used[a] = used[b] = true; });
+  return used;
+}
+
+/// The same after a walk, in lengths of `unit`; false if they are not known.
+bool add_areas(const VoronoiCell& cell, double unit, FaceAreas& of_cell,
+               std::vector<WallFace>& areas) {
+  if (!of_cell.find(cell)) return false;
+  const PlanesUsed used = planes_used(cell);
+  for (size_t i = 0; i < cell.count(); ++i) {
+    if (!used[i]) continue;
+    const WallFace face = of_cell.face(i);
+    areas.push_back({face.area * (unit * unit), face.middle * unit});
+  }
+  return true;
+}
+
 class FaceBuilder {
  public:
   /// `areas`: null where they are not wanted. `stretch`: of the cells, or null; not with areas.
@@ -58,9 +81,11 @@ class FaceBuilder {
           planes_.clear();
           low_ = Vec3{1, 1, 1} * 1e300;
           high_ = low_ * -1.0;
-          if (!find_by_walk(own) && !find_by_cuts(own)) take_all();
+          const bool is_walked = find_by_walk(own);
+          if (!is_walked && !find_by_cuts(own)) take_all();
           add(cells_.block().position(own), cells, faces);
-          if (areas) add_areas(planes_, cells_.empty_radius(), polygon_, *areas);
+          if (areas && !(is_walked && add_areas(cells_.walked(), 1, areas_, *areas)))
+            add_areas(planes_, cells_.empty_radius(), polygon_, *areas);
         }
       }
   }
@@ -77,9 +102,7 @@ class FaceBuilder {
     if (cells_.walk(own) < 0) return false;
     const VoronoiCell& cell = cells_.walked();
     const BrickSeeds& block = cells_.block();
-    std::array<bool, VoronoiCell::max_planes> used{};
-    cell.for_each_edge(0,
-                       [&](size_t, size_t, uint32_t a, uint32_t b) { used[a] = used[b] = true; });
+    const PlanesUsed used = planes_used(cell);
     const Vec3 seed = block.position(own);
     for (size_t i = 0; i < cell.count(); ++i)
       if (used[i]) planes_.push_back(block.position(cell.planes().seed[i]) - seed);
@@ -136,6 +159,7 @@ class FaceBuilder {
 
   BrickCells cells_;
   FacePolygon polygon_;
+  FaceAreas areas_;
   std::vector<bool> used_;
   std::vector<Vec3> planes_;  // of the cell at hand: neighbours, from the own seed
   Vec3 low_, high_;           // of its vertices
@@ -171,9 +195,7 @@ class WeightedFaceBuilder {
                   std::vector<FaceBrick::Face>& faces) {
     const VoronoiCell& walked = cells_.walked();
     const Vec3 seed = cells_.block().position(own);
-    std::array<bool, VoronoiCell::max_planes> used{};
-    walked.for_each_edge(0,
-                         [&](size_t, size_t, uint32_t a, uint32_t b) { used[a] = used[b] = true; });
+    const PlanesUsed used = planes_used(walked);
     Vec3 low = Vec3{1, 1, 1} * 1e300, high = low * -1.0;
     for (size_t v = 0; v < walked.vertex_count(); ++v) {
       low = min(low, walked.vertex(v));
@@ -279,6 +301,7 @@ FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex 
   faces_.reserve(owners.size() * 17);
   if (with_areas) areas_.reserve(faces_.capacity());
   FacePolygon polygon;
+  FaceAreas of_cell;
   std::vector<Vec3> neighbours;
   for (const LeafSeed& own : owners) {
     check_cancelled();
@@ -288,7 +311,9 @@ FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex 
     Cell cell{own.position, {}, {}, static_cast<uint32_t>(faces_.size()), 0};
     cell.set_box(box);
     for (const Vec3& apart : neighbours) add_face(apart, faces_);
-    if (with_areas) add_areas(neighbours, seeds->cells().empty_radius(), polygon, areas_);
+    const VoronoiCell* const walked = graded.walked();
+    if (with_areas && !(walked && add_areas(*walked, graded.unit(), of_cell, areas_)))
+      add_areas(neighbours, seeds->cells().empty_radius(), polygon, areas_);
     cell.count = static_cast<uint32_t>(faces_.size()) - cell.first;
     cells_.push_back(cell);
   }

@@ -49,51 +49,44 @@ bool has_good_axis(Vec3 n) {
   return across < along_row || across >= across_row;
 }
 
-/// What a cylinder leaves of it. |w|^2 - (w . n)^2 <= radius^2 with w = x - middle.
-void cut(Span& span, Vec3 middle, Vec3 n, double radius, double y, double z) {
-  const Vec3 w{-middle.x, y - middle.y, z - middle.z};
-  const double along = dot(w, n);
-  const double a = n.y * n.y + n.z * n.z, b = w.x - along * n.x,
-               c = dot(w, w) - along * along - radius * radius;
-  if (a < along_row) {
-    if (c > 0) span.high = span.low - 1;
-    return;
-  }
-  const double root = b * b - a * c;
-  if (!(root >= 0)) {
-    span.high = span.low - 1;
-    return;
-  }
-  const double half = std::sqrt(root) / a;
-  span.low = std::max(span.low, -b / a - half);
-  span.high = std::min(span.high, -b / a + half);
-}
-
 class Vent {
  public:
   Vent(const std::vector<VentPlane>& planes, const VentPlane& own, double half, double margin,
        VentRowsWorkspace& work)
-      : own_(own), margin_(margin), work_(work) {
+      : own_(own), margin_(margin + own.error), work_(work) {
     const Interval radius = own.radius;
-    is_certain_ = radius.low >= min_vent_radius &&
+    is_certain_ = radius.low >= min_vent_radius && radius.low > margin_ &&
                   own.area - face_area_error >= vent_area(radius.high) && has_good_axis(own.normal);
-    reach_ = reach(radius.high, half) + margin;
+    const double ball = reach(radius.high, half) + margin_;
+    // Of the cylinder within half the thickness of the face, along each axis.
+    for (int axis = 0; axis < 3; ++axis) {
+      const double n = std::abs(own.normal[axis]);
+      const double of_disc = radius.high * std::sqrt(std::max(0.0, 1 - n * n));
+      reach_[axis] = std::min(ball, (of_disc + half * n) * (1 + 1e-6) + 1e-6 + margin_);
+    }
     work.certain.clear();
     work.possible.clear();
+    // Without those that leave all of the cube of samples about the middle, as most do.
+    const auto add = [&](std::vector<HalfSpace>& to, const HalfSpace& plane) {
+      const double farthest = reach_.x * std::abs(plane.n.x) + reach_.y * std::abs(plane.n.y) +
+                              reach_.z * std::abs(plane.n.z);
+      if (plane.offset - dot(plane.n, own.middle) < 1.001 * farthest) to.push_back(plane);
+    };
     for (const VentPlane& plane : planes) {
       const HalfSpace whole{plane.normal, plane.distance + margin};
       if (&plane == &own) {
-        work.certain.push_back({plane.normal, plane.distance - margin});
-        work.possible.push_back(whole);
+        add(work.certain, {plane.normal, plane.distance - margin});
+        add(work.possible, whole);
         continue;
       }
       const Vec3 n{plane.moved.n[0], plane.moved.n[1], plane.moved.n[2]};
       const double offset = plane.moved.offset, moved_margin = plane.moved.margin;
-      work.certain.push_back({n, offset - moved_margin});
+      add(work.certain, {n, offset - moved_margin});
       const bool may_be_none = plane.area < min_face_area + face_area_error;
-      const bool meets = may_have_hole(plane) && length(plane.middle - own.middle) <=
-                                                     reach_ + reach(plane.radius.high, half);
-      work.possible.push_back(may_be_none || meets ? whole : HalfSpace{n, offset + moved_margin});
+      const bool meets =
+          may_have_hole(plane) &&
+          length(plane.middle - own.middle) <= ball + reach(plane.radius.high, half) + plane.error;
+      add(work.possible, may_be_none || meets ? whole : HalfSpace{n, offset + moved_margin});
     }
   }
 
@@ -102,13 +95,12 @@ class Vent {
            plane.area + face_area_error >= vent_area(plane.radius.low);
   }
 
-  /// From the middle.
-  double reach() const { return reach_; }
+  /// From the middle, along each axis.
+  Vec3 reach() const { return reach_; }
 
   Span certain(double y, double z) const {
-    Span span = around();
     if (!is_certain_) return {0, -1};
-    cut(span, own_.middle, own_.normal, own_.radius.low - margin_, y, z);
+    Span span = of_cylinder(own_.radius.low - margin_, y, z);
     for (const HalfSpace& plane : work_.certain) {
       if (span.is_empty()) break;
       cut(span, plane, y, z);
@@ -116,9 +108,8 @@ class Vent {
     return span;
   }
   Span possible(double y, double z) const {
-    Span span = around();
-    if (has_good_axis(own_.normal))
-      cut(span, own_.middle, own_.normal, own_.radius.high + margin_, y, z);
+    Span span =
+        has_good_axis(own_.normal) ? of_cylinder(own_.radius.high + margin_, y, z) : around();
     for (const HalfSpace& plane : work_.possible) {
       if (span.is_empty()) break;
       cut(span, plane, y, z);
@@ -130,13 +121,27 @@ class Vent {
   static double reach(double radius, double half) {
     return std::sqrt(radius * radius + half * half) * (1 + 1e-9) + 1e-6;
   }
-  Span around() const { return {own_.middle.x - reach_, own_.middle.x + reach_}; }
+  /// With w from the middle and the axis n, |w|^2 - (w . n)^2 <= radius^2.
+  Span of_cylinder(double radius, double y, double z) const {
+    const Vec3 n = own_.normal;
+    const double v = y - own_.middle.y, w = z - own_.middle.z, along = v * n.y + w * n.z;
+    const double across = n.y * n.y + n.z * n.z;
+    if (across < along_row)
+      return v * v + w * w - along * along <= radius * radius ? around() : Span{0, -1};
+    const double turn = v * n.z - w * n.y, root = across * (radius * radius) - turn * turn;
+    if (!(root >= 0)) return {0, -1};
+    const double inverse = 1 / across;
+    const double centre = own_.middle.x + n.x * along * inverse, half = std::sqrt(root) * inverse;
+    const Span all = around();
+    return {std::max(all.low, centre - half), std::min(all.high, centre + half)};
+  }
+  Span around() const { return {own_.middle.x - reach_.x, own_.middle.x + reach_.x}; }
 
   const VentPlane& own_;
   const double margin_;
   VentRowsWorkspace& work_;
   bool is_certain_;
-  double reach_;
+  Vec3 reach_;
 };
 
 void clear_bits(uint64_t* row, uint64_t first, uint64_t last) {
@@ -169,15 +174,18 @@ void clear_vents(const std::vector<VentPlane>& planes, double half, double margi
   for (const VentPlane& plane : planes) {
     if (!Vent::may_have_hole(plane)) continue;
     const Vent vent(planes, plane, half, margin, *borrowed);
-    const auto part = [&](const double* v, size_t count, double at, size_t& first) {
-      const double *const begin = std::lower_bound(v, v + count, at - vent.reach()),
-                          *const end = std::upper_bound(begin, v + count, at + vent.reach());
+    const auto part = [&](const double* v, size_t count, int axis, size_t& first) {
+      const double at = plane.middle[axis], reach = vent.reach()[axis];
+      const double *const begin = std::lower_bound(v, v + count, at - reach), *const end =
+                                                                                  std::upper_bound(
+                                                                                      begin,
+                                                                                      v + count,
+                                                                                      at + reach);
       first = static_cast<size_t>(begin - v);
       return static_cast<size_t>(end - v);
     };
     size_t j0, k0;
-    const size_t j1 = part(rows.y, rows.rows, plane.middle.y, j0),
-                 k1 = part(rows.z, rows.layers, plane.middle.z, k0);
+    const size_t j1 = part(rows.y, rows.rows, 1, j0), k1 = part(rows.z, rows.layers, 2, k0);
     for (size_t k = k0; k < k1; ++k)
       for (size_t j = j0; j < j1; ++j) {
         const Samples possible = samples(vent.possible(rows.y[j], rows.z[k]));

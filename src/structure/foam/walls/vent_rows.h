@@ -31,6 +31,7 @@ struct VentPlane {
   double distance;  ///< of the face
   double area;
   Vec3 middle;
+  double error;     ///< of the middle, at most
   Interval radius;  ///< of the hole
 };
 

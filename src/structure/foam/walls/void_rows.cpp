@@ -222,9 +222,14 @@ class BlockVoids {
       const FaceBrick::Face& face = faces.faces[i];
       const Vec3 n = grid_.rotation.apply({face.normal[0], face.normal[1], face.normal[2]}),
                  middle = grid_.rotation.apply(areas[i].middle), at = seed + middle * unit_;
-      const Interval range = radius.range(Box3{at, at}.grown(1e-6 * unit_));
-      w_.vents.push_back({faces.plane(i), n * (1 / length(n)), face.distance, areas[i].area, middle,
-                          Interval{range.low / unit_, range.high / unit_}});
+      const double area = areas[i].area;
+      VentPlane plane{faces.plane(i), n * (1 / length(n)), face.distance, area, middle, 0, {0, 0}};
+      if (area + face_area_error >= vent_area(min_vent_radius)) {
+        plane.error = centroid_error(area);
+        const Interval range = radius.range(Box3{at, at}.grown((1e-6 + plane.error) * unit_));
+        plane.radius = {range.low / unit_, range.high / unit_};
+      }
+      w_.vents.push_back(plane);
     }
     RowPart part;
     if (!find_part(reach, part)) return;

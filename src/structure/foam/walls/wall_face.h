@@ -16,8 +16,11 @@ struct WallFace {
 
 /// Faces of less area are taken for none: rounding may make them, or leave them out.
 constexpr double min_face_area = 1e-8;
-/// How far areas may be off; vents.h says of centroids.
-constexpr double face_area_error = 1e-9;
+/// How far areas and centroids of bricks may be off (face_areas.h).
+constexpr double face_area_error = 2e-7;
+inline double centroid_error(double area) {
+  return 4 * face_area_error / area;
+}
 
 class FacePolygon {
  public:
