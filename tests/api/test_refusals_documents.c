@@ -179,8 +179,8 @@ static void models(void** state) {
     WRONG(ARGUMENT, "slicing.orientation is 9", def->slicing = &slicing; slicing.orientation = 9);
     WRONG(ARGUMENT, "slicing.layer_height is nan|finite", def->slicing = &slicing;
           slicing.layer_height = NAN);
-    WRONG(ARGUMENT, "view.camera.eye is [inf, 0, 0]|finite", def->camera = &camera; def->render = &render;
-          camera.eye[0] = INFINITY);
+    WRONG(ARGUMENT, "view.camera.eye is [inf, 0, 0]|finite", def->camera = &camera;
+          def->render = &render; camera.eye[0] = INFINITY);
     WRONG(ARGUMENT, "slicing.outputs[1].contours.tolerance is nan|finite", def->slicing = &slicing;
           contours.tolerance = NAN);
     WRONG(ARGUMENT, "slicing.outputs[0].output is 77", def->slicing = &slicing;
