@@ -583,7 +583,7 @@ typedef struct msq_warp_def {
   uint32_t count;
   /** SPHERICAL: cells from pole to pole, 1 to 65536; no default. Other kinds: 0. */
   uint32_t count_polar;
-  /** In model units, 0 to 1e75. Default 0. SAMPLED: 0. */
+  /** In model units, 0 to 1e75, and less than 2^24 cells. Default 0. SAMPLED: 0. */
   double inner_radius;
   /** In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0. */
   double outer_radius;

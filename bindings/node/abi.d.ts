@@ -444,7 +444,7 @@ export interface msq_warp_def {
   count: number;
   /** SPHERICAL: cells from pole to pole, 1 to 65536; no default. Other kinds: 0. */
   count_polar: number;
-  /** In model units, 0 to 1e75. Default 0. SAMPLED: 0. */
+  /** In model units, 0 to 1e75, and less than 2^24 cells. Default 0. SAMPLED: 0. */
   inner_radius: number;
   /** In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0. */
   outer_radius: number;

@@ -93,6 +93,11 @@ constexpr double tiny = 1e-150;
 Warp::Warp(Kind kind, const Neighbourhood& grid, const Shell& shell)
     : kind_(kind), grid_(grid), shell_(shell) {
   check(shell, kind);
+  const double inner_cells = shell.inner / grid.cell_size.x;
+  if (!(inner_cells < max_cell_index))
+    fail(Status::limit,
+         "warp.inner_radius is %g, %g cells of %g from the middle; the limit is %g cells",
+         shell.inner, inner_cells, grid.cell_size.x, max_cell_index);
   for (int axis = 0; axis < 3; ++axis) numbers_.origin[axis] = grid.origin[axis];
   std::copy_n(grid.rotation.m.begin(), 9, numbers_.matrix);
   numbers_.inner = shell.inner;

@@ -117,6 +117,10 @@ static void lattices(void** state) {
     RIGHT(def->warp = &warp; warp.inner_radius = 2; warp.outer_radius = 3);
     WRONG(ARGUMENT, "warp.outer_radius is 2.875|inner_radius 2|no whole cell", def->warp = &warp;
           warp.inner_radius = 2; warp.outer_radius = 2.875);
+    RIGHT(def->warp = &warp; warp.inner_radius = 16777215);
+    WRONG(LIMIT, "warp.inner_radius is 1.67772e+07|the limit is 1.67772e+07 cells",
+          def->warp = &warp;
+          warp.inner_radius = 16777216);
     WRONG(LIMIT, "radius reaches 4.1|the limit is 4", def->warp = &warp; def->radius.value = 4.125);
     WRONG(UNSUPPORTED, "a period and a warp", def->warp = &warp; def->period = &period);
     WRONG(UNSUPPORTED, "a warp is given, and a library of 2", def->warp = &warp; def->cells = cells;

@@ -692,7 +692,7 @@ namespace Msq.Interop
         public uint count;
         /// <summary>SPHERICAL: cells from pole to pole, 1 to 65536; no default. Other kinds: 0.</summary>
         public uint count_polar;
-        /// <summary>In model units, 0 to 1e75. Default 0. SAMPLED: 0.</summary>
+        /// <summary>In model units, 0 to 1e75, and less than 2^24 cells. Default 0. SAMPLED: 0.</summary>
         public double inner_radius;
         /// <summary>In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0.</summary>
         public double outer_radius;

@@ -685,7 +685,7 @@ pub struct msq_warp_def {
     pub count: u32,
     /// SPHERICAL: cells from pole to pole, 1 to 65536; no default. Other kinds: 0.
     pub count_polar: u32,
-    /// In model units, 0 to 1e75. Default 0. SAMPLED: 0.
+    /// In model units, 0 to 1e75, and less than 2^24 cells. Default 0. SAMPLED: 0.
     pub inner_radius: f64,
     /// In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0.
     pub outer_radius: f64,
