@@ -3212,9 +3212,9 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  *
  * Ends of lines at the polygon's border are rounded to whole coordinates. All other decisions are
  * exact. Lines on the border itself count as inside on one side of the polygon. Where polygons of a
- * layer touch, lines go on from one to the other: those of foams and plates at the same point,
- * those of functions and waves, which are simplified from each polygon's border on, within
- * twice the tolerance.
+ * layer touch, lines go on from one to the other: those of foams at the same point, those of plates
+ * within a few units, those of functions and waves, which are simplified from each polygon's border
+ * on, within twice the tolerance.
  * Functions are sampled on a grid of 1/32 of the smallest cell size, waves on one of 1/16
  * (docs/concepts.md has the grid of warped cells). Lines closer together than that may be joined,
  * and smaller closed lines lost.

@@ -83,13 +83,19 @@ CountedVector<Polyline> chain(const LineGraph& graph) {
   return Chains(graph).find();
 }
 
-void simplify(Polyline& path, double distance) {
+void simplify(Polyline& path, double distance, const Box2& window) {
   CountedVector<Vec2>& points = path.points;
   if (path.is_closed) points.push_back(points[0]);
   const size_t count = points.size();
   CountedVector<bool> stays(count, false);
-  stays[0] = stays[count - 1] = true;
-  CountedVector<std::array<size_t, 2>> open = {{0, count - 1}};
+  CountedVector<std::array<size_t, 2>> open;
+  size_t last = 0;
+  for (size_t i = 0; i < count; ++i) {
+    stays[i] = i == 0 || i + 1 == count || !window.contains(points[i]);
+    if (!stays[i] || i == 0) continue;
+    open.push_back({last, i});
+    last = i;
+  }
   CancelPoll poll(current_job());
   while (!open.empty()) {
     const auto [from, to] = open.back();

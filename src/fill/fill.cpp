@@ -62,7 +62,7 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
   JobPoll poll(current_job());
   for (Polyline& line : lines) {
     poll();
-    simplify(line, dropped * plan.tolerance);
+    simplify(line, dropped * plan.tolerance, window);
     polygon.cut(rounding.round(line), parts);
     line = Polyline();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fill/side_by_side.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace msq {
@@ -11,13 +12,19 @@ Vec2 left_of(Vec2 way) {
   return Vec2{-way.y, way.x} * (1 / length(way));
 }
 
-/// Of a line that is cut for a test: how far its pointed end is from the border.
-constexpr double pointed_gap = 0.05;
+/// Of a line that is cut for a test: how far its end is from the border, as a part of a segment and
+/// in units, whichever is less. Ends on the border are rounded.
+constexpr double short_part = 0.05, short_units = 32;
 
 }  // namespace
 
 Vec2 between(IntPoint from, IntPoint to) {
   return {static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
+}
+
+IntPoint short_of(IntPoint end, IntPoint before) {
+  const Vec2 way = between(end, before);
+  return moved(end, way * std::min(short_part, short_units / length(way)));
 }
 
 IntPoint moved(IntPoint p, Vec2 by) {
@@ -54,12 +61,8 @@ bool fit_beside(const IntPath& line, double aside, bool is_from_pointed, bool is
     IntPath path = beside(line, side, side);
     CountedVector<IntPoint>& points = path.points;
     const size_t last = points.size() - 1;
-    const auto stop_short = [&](size_t end, size_t before) {
-      points[end] = line.points[end];
-      points[end] = moved(points[end], between(points[end], points[before]) * pointed_gap);
-    };
-    if (is_from_pointed) stop_short(0, 1);
-    if (is_to_pointed) stop_short(last, last - 1);
+    if (is_from_pointed) points[0] = short_of(line.points[0], points[1]);
+    if (is_to_pointed) points[last] = short_of(line.points[last], points[last - 1]);
     CountedVector<IntPath> parts;
     polygon.cut(path, parts);
     if (parts.size() != 1 || !(parts[0].points == points)) return false;

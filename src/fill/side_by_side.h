@@ -12,6 +12,9 @@ Vec2 between(IntPoint from, IntPoint to);
 /// The point p, moved by a vector and rounded.
 IntPoint moved(IntPoint p, Vec2 by);
 
+/// Of a line's end that may be on the border of a polygon: a point before it, towards `before`.
+IntPoint short_of(IntPoint end, IntPoint before);
+
 /// Where a line that leaves `corner` in direction `along`, moved aside by `aside` (positive: to the
 /// left), meets the line that leaves it in direction `other`, as a vector from the corner. Where
 /// they do not meet, or farther than `limit` from the corner: where the moved line begins.

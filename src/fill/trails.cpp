@@ -25,10 +25,15 @@ constexpr size_t max_compared = 16;
 
 class Trails {
  public:
-  Trails(CountedVector<IntPath> lines, double min_length, const LinePairs& pairs)
-      : lines_(std::move(lines)), min_length_(min_length), pairs_(pairs) {}
+  /// `single`: lines that are not printed twice, by number among those that are neither closed nor
+  /// left out.
+  Trails(CountedVector<IntPath> lines, double min_length, const LinePairs& pairs,
+         const CountedVector<uint32_t>& single)
+      : lines_(std::move(lines)), min_length_(min_length), pairs_(pairs), single_(single) {}
 
   CountedVector<Tour> find();
+  /// After find(): the pairs of which a line, or one that is joined to it, leaves the polygon.
+  CountedVector<uint32_t> leaving() const;
 
  private:
   struct Place {
@@ -79,6 +84,7 @@ class Trails {
   double side(End end) const;
   IntPoint joint(End end) const;
   IntPath in_place(End from) const;
+  bool leaves(End from) const;
   void connect();
   void connect_pairs(size_t i, size_t j, CountedVector<Exchange>& exchanges) const;
   void exchange(const Exchange& exchange);
@@ -88,6 +94,7 @@ class Trails {
   CountedVector<IntPath> lines_;  // and from number printed_ on the ways
   double min_length_;
   LinePairs pairs_;
+  const CountedVector<uint32_t>& single_;  // sorted
   size_t printed_ = 0;
   CountedVector<uint32_t>
       twins_;  // of each line that is printed: the other one of its pair, or no_end
@@ -156,7 +163,8 @@ void Trails::add_pairs() {
   }
   const auto is_candidate = [&](uint32_t line) {
     const uint32_t a = point_of_end[2 * line], b = point_of_end[2 * line + 1];
-    return a != b && counts[a] % 2 == 1 && counts[b] % 2 == 1 && counts[a] + counts[b] > 2;
+    return a != b && counts[a] % 2 == 1 && counts[b] % 2 == 1 && counts[a] + counts[b] > 2 &&
+           !std::binary_search(single_.begin(), single_.end(), line);
   };
   CountedVector<std::pair<double, uint32_t>> found;
   for (uint32_t line = 0; line < count; ++line)
@@ -349,6 +357,41 @@ IntPath Trails::in_place(End from) const {
   return line;
 }
 
+/// Whether a line in its place leaves the polygon where it is not where it was.
+bool Trails::leaves(End from) const {
+  const End ends[2] = {from, from ^ 1};
+  IntPath line = in_place(from);
+  bool has_moved = false;
+  for (const End end : ends)
+    has_moved = has_moved || side(end) != 0 || !(joint(end) == point_of(end));
+  if (!has_moved) return false;
+  // Ends that stay may be on the border.
+  CountedVector<IntPoint>& points = line.points;
+  const size_t last = points.size() - 1;
+  if (points[0] == point_of(from)) points[0] = short_of(points[0], points[1]);
+  if (points[last] == point_of(from ^ 1)) points[last] = short_of(points[last], points[last - 1]);
+  CountedVector<IntPath> parts;
+  pairs_.polygon->cut(line, parts);
+  return parts.size() != 1 || !(parts[0].points == points);
+}
+
+CountedVector<uint32_t> Trails::leaving() const {
+  CountedVector<uint32_t> found;
+  const auto add = [&](uint32_t line) {
+    if (line < twins_.size() && twins_[line] != no_end)
+      found.push_back(std::min(line, twins_[line]));
+  };
+  for (uint32_t line = 0; line < printed_; ++line) {
+    if (!leaves(2 * line)) continue;
+    add(line);
+    for (const End end : {2 * line, 2 * line + 1})
+      if (!is_way(partners_[end] / 2)) add(partners_[end] / 2);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 Tour Trails::follow(End end) {
   // The lines of the tour, each from an end.
   CountedVector<End> order;
@@ -427,7 +470,17 @@ CountedVector<Tour> Trails::find() {
 
 CountedVector<Tour> find_trails(CountedVector<IntPath> lines, double min_length,
                                 const LinePairs& pairs) {
-  return Trails(std::move(lines), min_length, pairs).find();
+  CountedVector<uint32_t> single;
+  if (pairs.distance == 0) return Trails(std::move(lines), min_length, pairs, single).find();
+  // A pair's lines are known to leave the polygon when all are joined.
+  for (;;) {
+    Trails trails(lines, min_length, pairs, single);
+    CountedVector<Tour> tours = trails.find();
+    const CountedVector<uint32_t> leaving = trails.leaving();
+    if (leaving.empty()) return tours;
+    single.insert(single.end(), leaving.begin(), leaving.end());
+    std::sort(single.begin(), single.end());
+  }
 }
 
 }  // namespace msq

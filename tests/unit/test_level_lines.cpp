@@ -21,6 +21,8 @@ using namespace msq::test;
 
 namespace {
 
+constexpr Box2 everywhere{{-1e9, -1e9}, {1e9, 1e9}};
+
 Rotation turned() {
   const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(-1.1), t = std::sin(-1.1);
   return {{c, -s * d, s * t, s, c * d, -c * t, 0, t, d}};
@@ -81,7 +83,7 @@ void check(const char* name, const Functional& f, double z, const Box2& window) 
     // What a path loses of its points stays within the tolerance that is given.
     for (Polyline path : chain(graph)) {
       const CountedVector<Vec2> all = path.points;
-      simplify(path, tolerance);
+      simplify(path, tolerance, everywhere);
       assert_true(path.points.size() <= all.size());
       for (const Vec2 p : all) {
         double least = 1e300;
@@ -175,7 +177,7 @@ void test_a_circle(void**) {
     const size_t before = path.points.size();
     // An arc of 4 sqrt(1e-5) is 1e-5 from its chord: 994 lines would do.
     if (before > 4 * 994) fail_msg("%zu points to a circle", before);
-    simplify(path, 1e-2);
+    simplify(path, 1e-2, everywhere);
     assert_true(path.points.size() < before / 4 && path.points.size() >= 20);
   }
 }
