@@ -29,10 +29,13 @@ HWY_INLINE V squared(V x, V y) {
 
 /// Whether the pieces that begin at x, y, one in a lane, may bend. The arithmetic is that of
 /// ContourDetails::suspect().
-HWY_INLINE M may_bend(const double* x, const double* y, double tolerance, double close) {
+HWY_INLINE M may_bend(const double* x, const double* y, const BendLimits& limits) {
   const D d;
-  const V zero = hn::Zero(d), limit2 = hn::Set(d, tolerance * tolerance);
-  const V close2 = hn::Set(d, close * close), limit2_4 = hn::Set(d, 4 * (tolerance * tolerance));
+  const double tolerance2 = limits.tolerance * limits.tolerance;
+  const V zero = hn::Zero(d), limit2 = hn::Set(d, tolerance2),
+          limit2_4 = hn::Set(d, 4 * tolerance2);
+  const V close2 = hn::Set(d, limits.close * limits.close);
+  const V corner2 = hn::Set(d, limits.corner * limits.corner);
   const V ax = hn::LoadU(d, x), ay = hn::LoadU(d, y);
   const V bx = hn::LoadU(d, x + 1), by = hn::LoadU(d, y + 1);
   const V d1_x = hn::Sub(ax, hn::LoadU(d, x - 1)), d1_y = hn::Sub(ay, hn::LoadU(d, y - 1));
@@ -46,12 +49,14 @@ HWY_INLINE M may_bend(const double* x, const double* y, double tolerance, double
   const V d3_x = hn::Sub(hn::LoadU(d, x + 3), hn::LoadU(d, x + 2));
   const V d3_y = hn::Sub(hn::LoadU(d, y + 3), hn::LoadU(d, y + 2));
   const V turn0 = cross_of(d0_x, d0_y, d1_x, d1_y), turn3 = cross_of(d2_x, d2_y, d3_x, d3_y);
+  const V size0 = squared(d0_x, d0_y), size3 = squared(d3_x, d3_y);
   const auto turns_back = [&](V other, V size_there) {
     return hn::And(hn::Lt(hn::Mul(other, turn1), zero),
                    hn::Gt(hn::Mul(other, other), hn::Mul(limit2, size_there)));
   };
-  const M turns_both_ways =
-      hn::Or(turns_back(turn0, squared(d0_x, d0_y)), turns_back(turn3, squared(d3_x, d3_y)));
+  const M turns_both_ways = hn::Or(turns_back(turn0, size0), turns_back(turn3, size3));
+  const M is_by_corner = hn::Or(hn::Gt(hn::Mul(turn0, turn0), hn::Mul(corner2, size0)),
+                                hn::Gt(hn::Mul(turn3, turn3), hn::Mul(corner2, size3)));
   const M is_close = hn::Or(hn::Lt(size1, close2), hn::Lt(size2, close2));
   const M is_inflection = hn::Le(area, zero);
   const M bends_either_way = hn::Or(hn::Gt(hn::Mul(turn1, turn1), hn::Mul(limit2_4, size1)),
@@ -61,10 +66,10 @@ HWY_INLINE M may_bend(const double* x, const double* y, double tolerance, double
               hn::Le(hn::Mul(area, area), hn::Mul(hn::Mul(hn::Mul(limit2, turn), turn), size)));
   const M bends = hn::Or(hn::And(is_inflection, bends_either_way),
                          hn::AndNot(is_inflection, hn::Or(turns_both_ways, hn::Not(is_flat))));
-  return hn::And(hn::Gt(size, limit2), hn::Or(is_close, bends));
+  return hn::And(hn::Gt(size, limit2), hn::Or(hn::Or(is_close, is_by_corner), bends));
 }
 
-void find_some_bends(const double* x, const double* y, size_t count, double tolerance, double close,
+void find_some_bends(const double* x, const double* y, size_t count, const BendLimits& limits,
                      uint64_t* bits) {
   const D d;
   const size_t lanes = hn::Lanes(d);
@@ -78,13 +83,13 @@ void find_some_bends(const double* x, const double* y, size_t count, double tole
     const double *const from_x = x + w * 64, *const from_y = y + w * 64;
     uint64_t word = 0;
     for (size_t i = 0; i < 64; i += lanes)
-      word |= bits_of(d, may_bend(from_x + i, from_y + i, tolerance, close)) << i;
+      word |= bits_of(d, may_bend(from_x + i, from_y + i, limits)) << i;
     bits[w] = word;
   }
 }
 
 void find_some_bends_at_ends(const double* x, const double* y, const RingPoints* rings,
-                             size_t ring_count, double tolerance, double close, uint64_t* bits) {
+                             size_t ring_count, const BendLimits& limits, uint64_t* bits) {
   const D d;
   const size_t lanes = hn::Lanes(d);
   // Pieces 3 points before a ring's end to 2 points behind its start.
@@ -107,7 +112,7 @@ void find_some_bends_at_ends(const double* x, const double* y, const RingPoints*
     copy(y, at_y);
     uint64_t word = 0;
     for (size_t i = 0; i < pieces; i += lanes)
-      word |= bits_of(d, may_bend(at_x + before + i, at_y + before + i, tolerance, close)) << i;
+      word |= bits_of(d, may_bend(at_x + before + i, at_y + before + i, limits)) << i;
     for (uint32_t i = 0; i < pieces; ++i)
       put(i < behind ? end - behind + i : first + i - behind, word >> i & 1);
   }
@@ -128,15 +133,15 @@ HWY_EXPORT(find_some_bends_at_ends);
 
 }  // namespace
 
-void find_bends(const double* x, const double* y, size_t count, double tolerance, double close,
+void find_bends(const double* x, const double* y, size_t count, const BendLimits& limits,
                 uint64_t* bits) {
-  HWY_DYNAMIC_DISPATCH(find_some_bends)(x, y, count, tolerance, close, bits);
+  HWY_DYNAMIC_DISPATCH(find_some_bends)(x, y, count, limits, bits);
 }
 
 void find_bends_at_ends(const double* x, const double* y, std::span<const RingPoints> rings,
-                        double tolerance, double close, uint64_t* bits) {
+                        const BendLimits& limits, uint64_t* bits) {
   HWY_DYNAMIC_DISPATCH(find_some_bends_at_ends)
-  (x, y, rings.data(), rings.size(), tolerance, close, bits);
+  (x, y, rings.data(), rings.size(), limits, bits);
 }
 
 }  // namespace msq

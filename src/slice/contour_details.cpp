@@ -183,14 +183,13 @@ void ContourDetails::find_suspects(ContourPoints& points) {
   constexpr size_t at_once = size_t{1} << 18;
   for (size_t first = 0; first < count; first += at_once) {
     check_cancelled(job);
-    find_bends(rings_.x() + first, rings_.y() + first, std::min(at_once, count - first), tolerance_,
-               close(), memory_->bends.data() + first / 64);
+    find_bends(rings_.x() + first, rings_.y() + first, std::min(at_once, count - first), limits_,
+               memory_->bends.data() + first / 64);
   }
   memory_->closed.clear();
   for (const ContourRings::Ring& ring : rings_.rings())
     if (ring.is_closed) memory_->closed.push_back({ring.first, ring.end});
-  find_bends_at_ends(rings_.x(), rings_.y(), memory_->closed, tolerance_, close(),
-                     memory_->bends.data());
+  find_bends_at_ends(rings_.x(), rings_.y(), memory_->closed, limits_, memory_->bends.data());
   CancelPoll poll(job);
   begin_run();
   for (const ContourRings::Ring& ring : rings_.rings()) {
@@ -224,7 +223,7 @@ void ContourDetails::look_along(const ContourRings::Ring& ring, CancelPoll& poll
 void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   const auto behind = [&](uint32_t i) { return i + 1 < ring.end ? i + 1 : ring.first; };
   const auto before = [&](uint32_t i) { return i > ring.first ? i - 1 : ring.end - 1; };
-  const double close2 = close() * close();
+  const double close2 = limits_.close * limits_.close;
   const uint32_t next = behind(id);
   if (rings_.is_beyond(id) || rings_.is_beyond(next) || rings_.is_before_saddle(id)) return;
   const Vec2 a = rings_.at(id), b = rings_.at(next), ab = b - a;
@@ -248,8 +247,14 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   }
   const double turn1 = cross(d1, ab), turn2 = cross(ab, d2);
   const double size2 = dot(ab, ab), limit2 = tolerance_ * tolerance_;
+  const Vec2 d0 = rings_.at(p) - rings_.at(before(p)), d3 = rings_.at(behind(q)) - rings_.at(q);
+  const double turn0 = cross(d0, d1), turn3 = cross(d2, d3);
+  const double corner2 = limits_.corner * limits_.corner;
+  const bool is_by_corner =
+      turn0 * turn0 > corner2 * dot(d0, d0) || turn3 * turn3 > corner2 * dot(d3, d3);
   if (turn1 * turn2 <= 0) {  // an inflection: of an arc, less than a quarter of this
-    if (turn1 * turn1 > 4 * limit2 * dot(d1, d1) || turn2 * turn2 > 4 * limit2 * dot(d2, d2))
+    if (is_by_corner || turn1 * turn1 > 4 * limit2 * dot(d1, d1) ||
+        turn2 * turn2 > 4 * limit2 * dot(d2, d2))
       add_piece(make_piece());
     return;
   }
@@ -259,8 +264,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   const auto turns_back = [&](double other, Vec2 d) {
     return other * turn1 < 0 && other * other > limit2 * dot(d, d);
   };
-  const Vec2 d0 = rings_.at(p) - rings_.at(before(p)), d3 = rings_.at(behind(q)) - rings_.at(q);
-  const bool turns_one_way = !turns_back(cross(d0, d1), d0) && !turns_back(cross(d2, d3), d3);
+  const bool turns_one_way = !is_by_corner && !turns_back(turn0, d0) && !turns_back(turn3, d3);
   Piece piece = make_piece();
   piece.before = p;
   piece.behind = q;

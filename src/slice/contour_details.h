@@ -42,7 +42,11 @@ class ContourDetails {
   /// `taken`: see ContourRoom.
   ContourDetails(const ContourRings& rings, double tolerance, double units,
                  std::unordered_set<uint64_t>& taken)
-      : rings_(rings), tolerance_(tolerance), units_(units), room_(rings, taken) {
+      : rings_(rings),
+        tolerance_(tolerance),
+        units_(units),
+        limits_(limits_of(rings, tolerance)),
+        room_(rings, taken) {
     memory_->pieces.clear();
     memory_->details.clear();
     memory_->runs.clear();
@@ -85,6 +89,11 @@ class ContourDetails {
     bool is_high;
   };
 
+  /// At fine tolerances, hidden corners are worth more time.
+  static BendLimits limits_of(const ContourRings& rings, double tolerance) {
+    const bool is_fine = rings.gaps().parts() > 1;
+    return {tolerance, rings.grid().pitch() / 16, (is_fine ? 2 : 4) * tolerance};
+  }
   void find_suspects(ContourPoints& points);
   void settle(ContourPoints& points);
   void look_along(const ContourRings::Ring& ring, CancelPoll& poll);
@@ -100,8 +109,6 @@ class ContourDetails {
   void begin_run();
   void merge_runs();
   void drop_tangles();
-  /// A crossing that is nearer than that to another tells little about the direction.
-  double close() const { return rings_.grid().pitch() / 16; }
   Corner corner_of(const Piece& piece) const;
   Search search_of(size_t number, const Beside& beside) const;
   void keep_open(std::vector<Search>& searches, std::vector<Search>& closed,
@@ -111,6 +118,7 @@ class ContourDetails {
 
   const ContourRings& rings_;
   const double tolerance_, units_;
+  const BendLimits limits_;
   ContourRoom room_;
   // Kept between calls: fresh memory of this size takes a while to get.
   struct Memory {

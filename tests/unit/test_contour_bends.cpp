@@ -12,7 +12,7 @@ namespace msq::test {
 
 namespace {
 
-constexpr double tolerance = 0.05, close_points = 0.02;
+constexpr double tolerance = 0.05, close_points = 0.02, corner = 0.1;
 
 struct Line {
   std::vector<double> x, y;
@@ -42,6 +42,9 @@ bool may_bend(const Vec2 (&p)[6]) {
              d3 = p[5] - p[4];
   if (!(length(ab) > tolerance)) return false;
   if (length(d1) < close_points || length(d2) < close_points) return true;
+  if (std::abs(cross(d0, d1)) > corner * length(d0) ||
+      std::abs(cross(d2, d3)) > corner * length(d3))
+    return true;
   const double turn1 = cross(d1, ab), turn2 = cross(ab, d2), turn = cross(d1, d2);
   if (turn1 * turn2 <= 0)
     return std::max(std::abs(turn1) / length(d1), std::abs(turn2) / length(d2)) > 2 * tolerance;
@@ -58,7 +61,7 @@ void test_bends(void**) {
   for (const size_t count : {size_t{3}, size_t{64}, size_t{130}, size_t{1000}}) {
     const Line line = random_line(count, random);
     std::vector<uint64_t> bits((count + 63) / 64);
-    find_bends(line.x.data(), line.y.data(), count, tolerance, close_points, bits.data());
+    find_bends(line.x.data(), line.y.data(), count, {tolerance, close_points, corner}, bits.data());
     size_t found = 0, flat = 0;
     for (size_t i = 2; i + 3 < count; ++i) {
       const bool bends = may_bend({line.at(i - 2), line.at(i - 1), line.at(i), line.at(i + 1),
@@ -87,7 +90,8 @@ void test_ends_of_rings(void**) {
   // Bits beside the ends stay as they are.
   for (const uint64_t before : {uint64_t{0}, ~uint64_t{0}}) {
     std::vector<uint64_t> bits((line.count() + 63) / 64, before);
-    find_bends_at_ends(line.x.data(), line.y.data(), rings, tolerance, close_points, bits.data());
+    find_bends_at_ends(line.x.data(), line.y.data(), rings, {tolerance, close_points, corner},
+                       bits.data());
     size_t found = 0, flat = 0, next = 0;
     for (const RingPoints ring : rings) {
       const auto bit = [&](uint32_t id) { return (bits[id / 64] >> (id % 64) & 1) != 0; };
