@@ -16,9 +16,9 @@ struct Polyline {
 CountedVector<Polyline> chain(const LineGraph& graph);
 
 /// Drops points of a path within the window that are no farther than `distance` from what remains.
-/// Others stay: more lines may meet there, as other windows show. Source: Douglas
-/// and Peucker, "Algorithms for the reduction of the number of points required to represent a
-/// digitized line", 1973.
+/// Others stay: more lines may meet there, as other windows show. Source: Douglas and Peucker,
+/// "Algorithms for the reduction of the number of points required to represent a digitized line",
+/// 1973.
 void simplify(Polyline& path, double distance, const Box2& window);
 
 }  // namespace msq

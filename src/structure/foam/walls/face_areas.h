@@ -21,9 +21,9 @@ class FaceAreas {
  public:
   /// After cell.walk(). False if they are not known.
   bool find(const VoronoiCell& cell);
-  /// Of the plane of a neighbour, by number.
+  /// Whether the plane of a neighbour, by number, has an edge.
+  bool has_edge(size_t plane) const { return sums_[plane].is_begun; }
   WallFace face(size_t plane) const { return sums_[plane].face(); }
-  size_t bytes() const { return sums_.capacity() * sizeof(Sum); }
 
  private:
   struct Sum {

@@ -54,9 +54,8 @@ PlanesUsed planes_used(const VoronoiCell& cell) {
 bool add_areas(const VoronoiCell& cell, double unit, FaceAreas& of_cell,
                std::vector<WallFace>& areas) {
   if (!of_cell.find(cell)) return false;
-  const PlanesUsed used = planes_used(cell);
   for (size_t i = 0; i < cell.count(); ++i) {
-    if (!used[i]) continue;
+    if (!of_cell.has_edge(i)) continue;
     const WallFace face = of_cell.face(i);
     areas.push_back({face.area * (unit * unit), face.middle * unit});
   }
