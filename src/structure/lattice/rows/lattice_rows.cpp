@@ -116,7 +116,24 @@ RowTables::Columns LatticeRows::make_columns(uint64_t base, uint64_t begin, uint
   for (double& position : x) position *= parts_.cell_size[0];
   samples.reserve(end - base);
   for (uint64_t i = base; i < end; ++i) samples.push_back(grid_.x(i));
-  return {std::move(x), std::move(samples), std::move(sets)};
+  const UnrolledColumns unrolled = unroll(x, begin - base);
+  return {std::move(x), std::move(samples), std::move(sets), unrolled};
+}
+
+/// Of the positions of columns in the cell, from column `first` on.
+UnrolledColumns LatticeRows::unroll(const std::vector<double>& x, size_t first) const {
+  const double size = parts_.cell_size[0];
+  UnrolledColumns made{};
+  made.first = static_cast<double>(first);
+  made.last = static_cast<double>(x.size() - 1);
+  made.width = cells_.rotation.m[static_cast<size_t>(axis_[0])] * grid_.spacing.x;
+  made.zero = x[first] - made.first * made.width;
+  for (size_t i = first; i < x.size(); ++i) {
+    const double off = x[i] - made.position(static_cast<double>(i));
+    made.off = std::max(made.off, std::abs(off - size * std::round(off / size)));
+  }
+  made.off += 0x1p-48 * (std::abs(made.position(made.last)) + std::abs(made.zero) + parts_.extent);
+  return made;
 }
 
 /// Rows or layers [begin, end) in the order of their positions in the cell; positions within `same`
@@ -191,7 +208,7 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
   std::vector<uint64_t> all(padded);
   set_bits(all.data(), window.begin - window.base, window.end - 1 - window.base);
   const Borrowed<std::vector<uint64_t>> scratch;
-  scratch->resize(rows.count() * padded);
+  scratch->resize(rows.count() * padded + 1);
   std::vector<const uint64_t*> alive(rows.count());
   task.alive = alive.data();
   std::vector<LeftSample> left;
@@ -282,6 +299,15 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
   }
 }
 
+/// Whether rows are drawn copy by copy: a copy takes about as long as so many samples of a section.
+bool LatticeRows::draws_copies(const RowTask& task, const UnrolledColumns& columns) const {
+  constexpr double least_columns = 40;
+  constexpr size_t max_bits = size_t{1} << 31;
+  const double width = std::abs(columns.width);
+  return parts_.cell_size[0] >= least_columns * width && columns.off <= 0x1p-6 * width &&
+         task.rows < max_bits / (task.row_words() * bits_per_word);
+}
+
 /// Words of a section of a row of that many columns along which the radius changes by `change`. A
 /// section costs about three times as much as a doubtful sample. The number of doubtful samples is
 /// about three times the columns times the change, in cells, by which a section's ends move.
@@ -305,6 +331,7 @@ void LatticeRows::set_whole_rows(RowTask& task, Interval radii, double margin) c
 void LatticeRows::set_levels(RowTask& task, const Window& window, const Classes& rows, uint64_t k) {
   task.field = nullptr;
   task.of_row = nullptr;
+  task.unrolled = nullptr;
   task.radius = task.slope = 0;
   if (radius_.is_constant()) {
     task.radius = radius_.range().high;
@@ -347,6 +374,10 @@ void LatticeRows::set_linear(RowTask& task, const Window& window, const Classes&
     const double a = radius_at(-0.5), b = radius_at(columns - 0.5);
     return set_whole_rows(task, {std::min(a, b), std::max(a, b)}, level_margin_);
   }
+  unrolled_ = window.columns.unrolled;
+  unrolled_.first = static_cast<double>(window.begin - window.base);
+  unrolled_.last = columns - 1;
+  if (draws_copies(task, unrolled_)) task.unrolled = &unrolled_;
   task.section_words = section_words(columns, columns * std::abs(task.slope));
   task.levels.clear();
   for (size_t section = 0; section <= task.sections(); ++section) {

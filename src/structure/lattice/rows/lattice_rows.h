@@ -63,6 +63,7 @@ class LatticeRows {
   /// Of samples along an axis, for the tables that are kept.
   RowTables::Line line(int axis, uint64_t begin, uint64_t end) const;
   RowTables::Columns make_columns(uint64_t base, uint64_t begin, uint64_t end) const;
+  UnrolledColumns unroll(const std::vector<double>& x, size_t first) const;
   Classes make_classes(int axis, uint64_t begin, uint64_t end, double same) const;
   void keep_window(size_t first_word, const Job* job, const std::function<bool(Vec3)>& inside);
   void keep_rows(const Window& window, uint64_t begin, uint64_t end, const Job* job,
@@ -70,6 +71,7 @@ class LatticeRows {
   void set_levels(RowTask& task, const Window& window, const Classes& rows, uint64_t k);
   void set_linear(RowTask& task, const Window& window, const Classes& rows, uint64_t k);
   void set_whole_rows(RowTask& task, Interval radii, double margin) const;
+  bool draws_copies(const RowTask& task, const UnrolledColumns& columns) const;
   size_t section_words(double columns, double change) const;
 
   const Neighbourhood& cells_;
@@ -85,6 +87,7 @@ class LatticeRows {
   Vec3 gradient_;
   bool is_linear_ = false;
   std::vector<double> of_row_;
+  UnrolledColumns unrolled_{};  // of a window
   std::vector<LeftSample> left_once_;
   size_t asked_ = 0;
 };

@@ -31,6 +31,7 @@
 #include "base/mask_bits-inl.h"
 #include "base/sample_grid.h"
 #include "base/simd.h"
+#include "structure/lattice/rows/copy_spans-inl.h"
 #include "structure/lattice/rows/mark_section-inl.h"
 #include "structure/lattice/rows/row_kernel.h"
 #include "structure/lattice/rows/row_struts.h"
@@ -43,6 +44,16 @@ namespace {
 
 using Doubles = hn::ScalableTag<double>;
 using V = hn::Vec<Doubles>;
+
+/// Squared distance of rows from the projection of a strut across them, from its end (0, 0) to
+/// (dy, dz); inverse: 1 / A.
+HWY_INLINE V flat_distance2(V v, V w, V dy, V dz, V inverse) {
+  const Doubles d;
+  const V along = hn::Mul(hn::MulAdd(v, dy, hn::Mul(w, dz)), inverse);
+  const V t = hn::Min(hn::Max(along, hn::Zero(d)), hn::Set(d, 1.0));
+  const V flat_v = hn::NegMulAdd(t, dy, v), flat_w = hn::NegMulAdd(t, dz, w);
+  return hn::MulAdd(flat_v, flat_v, hn::Mul(flat_w, flat_w));
+}
 
 template <size_t section_words>
 class SectionRows {
@@ -103,9 +114,7 @@ HWY_INLINE void SectionRows<section_words>::draw(const RowStrut& strut) {
   for (size_t j = 0; j < task_.rows; j += lanes) {
     const V v = hn::Sub(hn::LoadU(d, task_.y + j), hn::Set(d, strut.a[1]));
     const V e = hn::MulAdd(v, dy, hn::Mul(w, dz));
-    const V t = hn::Min(hn::Max(hn::Mul(e, inverse), zero), one);
-    const V flat_v = hn::NegMulAdd(t, dy, v), flat_w = hn::NegMulAdd(t, dz, w);
-    const V flat2 = hn::MulAdd(flat_v, flat_v, hn::Mul(flat_w, flat_w));
+    const V flat2 = flat_distance2(v, w, dy, dz, inverse);
     const V of_row = task_.of_row ? hn::LoadU(d, task_.of_row + j) : zero;
     const auto radius_of = [&](const RowLevel& level) HWY_ATTR {
       const V r =
@@ -249,10 +258,30 @@ HWY_INLINE void SectionRows<section_words>::decide(size_t lane, size_t row, size
   }
 }
 
+/// Draws a strut that `copies` is set to.
+HWY_INLINE void draw_copies(const RowTask& task, const RowStrut& strut, double reach,
+                            CopySpans& copies) {
+  const Doubles d;
+  const double w = task.z - strut.a[2];
+  const double across = strut.ab[1] * strut.ab[1] + strut.ab[2] * strut.ab[2];
+  const V dy = hn::Set(d, strut.ab[1]), dz = hn::Set(d, strut.ab[2]), from_a = hn::Set(d, w);
+  const V inverse = hn::Set(d, 1 / across), reach2 = hn::Set(d, reach * reach);
+  for (size_t j = 0; j < task.rows; j += hn::Lanes(d)) {
+    const V v = hn::Sub(hn::LoadU(d, task.y + j), hn::Set(d, strut.a[1]));
+    uint64_t met = bits_of(d, hn::Le(flat_distance2(v, from_a, dy, dz, inverse), reach2));
+    if (task.rows - j < hn::Lanes(d)) met &= (uint64_t{1} << (task.rows - j)) - 1;
+    for (; met; met &= met - 1) {
+      const size_t row = j + static_cast<size_t>(std::countr_zero(met));
+      if (task.alive[row]) copies.draw_row(row, task.y[row] - strut.a[1], w);
+    }
+  }
+}
+
 template <size_t section_words>
 HWY_INLINE void mark_sections(const RowStruts& struts, const RowTask& task, RowWorkspace& workspace,
                               std::vector<LeftSample>& left) {
   SectionRows<section_words> rows(struts, task, workspace, left);
+  CopySpans copies(struts, task, workspace, left);
   size_t max_left = size_t{1} << 16;
   const RowLevel widest = task.levels[task.widest];
   const double max_of_row =
@@ -261,13 +290,17 @@ HWY_INLINE void mark_sections(const RowStruts& struts, const RowTask& task, RowW
     const double reach = strut.factor * (widest.radius + max_of_row) + widest.margin;
     const double w = task.z - strut.a[2];
     if (w - std::max(strut.ab[2], 0.0) > reach || std::min(strut.ab[2], 0.0) - w > reach) continue;
-    rows.draw(strut);
+    if (task.unrolled && copies.set(strut, reach))
+      draw_copies(task, strut, reach, copies);
+    else
+      rows.draw(strut);
     if (left.size() < max_left) continue;
     // Struts that share a surface leave the same samples undecided.
     std::sort(left.begin(), left.end());
     left.erase(std::unique(left.begin(), left.end()), left.end());
     max_left = std::max(max_left, 2 * left.size());
   }
+  copies.finish();
 }
 
 void mark_rows(const RowStruts& struts, const RowTask& task, RowWorkspace& workspace,

@@ -19,6 +19,20 @@ struct RowLevel {
   double radius, margin;
 };
 
+/// The columns on the unrolled line of cells, on which a strut and its copies lie a cell apart.
+/// Positions are in model units.
+struct UnrolledColumns {
+  double zero;   ///< the position of column 0
+  double width;  ///< from a column to the next; negative if positions decrease
+  double off;    ///< maximum distance of a column from where these two numbers put it
+  double first, last;
+
+  /// Rounding of column numbers.
+  static constexpr double slack = 1e-9;
+  double position(double column) const { return zero + column * width; }
+  double column(double position) const { return (position - zero) / width; }
+};
+
 /// Some rows of a layer, and as many columns as ColumnSets take. Positions are in the cell, in
 /// model units from its corner.
 struct RowTask {
@@ -48,6 +62,9 @@ struct RowTask {
   }
   /// The row's own part of the radius, padded likewise; null: 0.
   const double* of_row;
+  /// Null, or the radius is linear along the rows and has of_row, and there are so few cells in a
+  /// row that each copy of a strut is drawn for itself.
+  const UnrolledColumns* unrolled;
 
   /// The radius at a sample, within `margin`: that of `field` or, if null, the row's own and radius
   /// + slope * column.
@@ -57,7 +74,7 @@ struct RowTask {
   double sample_z;
   double margin;
 
-  /// Rows of columns->parts() whole parts.
+  /// Rows of columns->parts() whole parts, and room for one more word.
   uint64_t* inside;
   size_t row_words() const { return columns->parts() * ColumnSets::part_words; }
   size_t sections() const { return row_words() / section_words; }
@@ -82,6 +99,10 @@ struct RowWorkspace {
   uint32_t column[most + max_simd_doubles];
   alignas(64) double x[most + max_simd_doubles], r[most + max_simd_doubles];
   std::vector<Vec3> positions;
+  // Copies of a strut along the rows, by its end a: column, and radius without the row's own.
+  static constexpr size_t max_copies = 512;
+  alignas(8 * max_simd_doubles) double copy_column[max_copies + max_simd_doubles];
+  alignas(8 * max_simd_doubles) double copy_radius[max_copies + max_simd_doubles];
 };
 
 }  // namespace msq

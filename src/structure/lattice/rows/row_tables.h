@@ -35,6 +35,7 @@ class RowTables {
     std::vector<double> positions;  ///< in the cell, in model units, of columns from `base` on
     std::vector<double> samples;    ///< x of these columns
     ColumnSets sets;
+    UnrolledColumns unrolled;  ///< all of them
 
     size_t bytes() const {
       return (positions.capacity() + samples.capacity()) * sizeof(double) + sets.bytes();
