@@ -122,13 +122,12 @@ class FastSpans {
         buffer_(target.certain),
         row_step_(static_cast<float>(target.dy * target.inverse_dx)),
         layer_step_(static_cast<float>(target.dz * target.inverse_dx)) {
-    make_shapes(FullLanes(), target, full_);
-    make_shapes(FewLanes(), target, few_);
+    make_shapes(FullLanes(), target, shapes_);
   }
 
   /// Adds a strut of the batch, of kernel `fast`.
   HWY_INLINE void add(size_t strut) {
-    add_vectors(FullLanes(), full_[setups_.shape[strut]], strut, 0,
+    add_vectors(FullLanes(), shapes_[setups_.shape[strut]], strut, 0,
                 static_cast<size_t>(setups_.vectors[strut]));
   }
   /// Adds one of kernel `few`: gathered, for a loop without a branch on the number of vectors.
@@ -142,7 +141,7 @@ class FastSpans {
   HWY_INLINE void draw() {
     for (size_t i = 0; i < waiting_count_; ++i) {
       const RowVector& w = waiting_[i];
-      add_vectors(FewLanes(), few_[setups_.shape[w.strut]], w.strut, w.vector, w.vector + 1);
+      add_vectors(FullLanes(), shapes_[setups_.shape[w.strut]], w.strut, w.vector, w.vector + 1);
     }
     waiting_count_ = 0;
     buffer_.draw();
@@ -163,7 +162,7 @@ class FastSpans {
   DoubtfulSpans& doubts_;
   SpanBuffer buffer_;
   const float row_step_, layer_step_;
-  LaneShape full_[max_shapes], few_[max_shapes];
+  LaneShape shapes_[max_shapes];
   size_t waiting_count_ = 0;
   RowVector waiting_[StrutSetups::max_few * (StrutBatch::capacity + 1)];
 };

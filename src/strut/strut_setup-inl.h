@@ -25,7 +25,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using FullLanes = hn::ScalableTag<float>;
-using FewLanes = hn::CappedTag<float, 8>;
 
 /// How vectors cover the rows and layers of a strut: shape s puts lanes / 2^s of the lanes of a
 /// vector on rows, and fills it with layers.
@@ -39,7 +38,7 @@ HWY_INLINE size_t shapes(D d, const RasterTarget& target) {
 
 struct StrutSetups {
   enum Kernel : int32_t { none = 0, general = 1, few = 2, fast = 3 };
-  /// Maximum number of vectors of FewLanes of a strut of kernel `few`.
+  /// Maximum number of vectors of a strut of kernel `few`: few of long vectors.
   static constexpr size_t max_few = 4;
   static constexpr size_t room = StrutBatch::capacity + StrutBatch::padding;
 
@@ -196,15 +195,9 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     serves = hn::And(serves, hn::Gt(whole, hn::Set(d, 1e-6)));
     serves = hn::And(serves, hn::Lt(whole, hn::Set(d, 65536.0)));
     serves = hn::And(serves, hn::Lt(hn::Abs(column), hn::Set(d, 0x1p30)));
-    const auto few = layout(d, FewLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
-    auto chosen = few;
-    const auto is_few = hn::Le(few.vectors, hn::Set(d, static_cast<double>(StrutSetups::max_few)));
-    if (hn::Lanes(FullLanes()) > hn::Lanes(FewLanes())) {
-      const auto full = layout(d, FullLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
-      chosen.shape = hn::IfThenElse(is_few, few.shape, full.shape);
-      chosen.row_vectors = hn::IfThenElse(is_few, few.row_vectors, full.row_vectors);
-      chosen.vectors = hn::IfThenElse(is_few, few.vectors, full.vectors);
-    }
+    const auto chosen = layout(d, FullLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
+    const double most = hn::Lanes(FullLanes()) < 16 ? StrutSetups::max_few : 2;
+    const auto is_few = hn::Le(chosen.vectors, hn::Set(d, most));
     const auto fast = hn::IfThenElse(is_few, hn::Set(d, double{StrutSetups::few}),
                                      hn::Set(d, double{StrutSetups::fast}));
     V kernel = hn::Set(d, double{StrutSetups::general});
