@@ -22,7 +22,7 @@ bool FoamGraph::may_own_edges(CellIndex, const Box3&) const {
 // The cost of a sample grows with the square of the radius, from about 0.08 on
 // (docs/benchmarks.md).
 double FoamGraph::critical_samples(const Box3&, double max_radius) const {
-  constexpr double at_tenth = 60;
+  constexpr double at_tenth = 45;
   const double r = std::max(max_radius, 0.08);
   return at_tenth * 0.01 / (r * r);
 }
