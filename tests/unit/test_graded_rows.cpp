@@ -58,9 +58,10 @@ size_t check(Random& random, uint64_t number) {
   const double far = pick({0, 0, 1e3, 1e7}) * size;
 
   SampleGrid samples;
-  samples.nx = 100 + random.below(900);
-  samples.ny = 16 + random.below(16);
-  samples.nz = 2;
+  const bool is_wide = number % 20 == 7;  // more columns than are drawn at a time
+  samples.nx = is_wide ? 4000 + random.below(6000) : 100 + random.below(900);
+  samples.ny = is_wide ? 4 : 16 + random.below(16);
+  samples.nz = is_wide ? 1 : 2;
   const double across = random.between(8, 300);
   samples.origin = {far + random.unit() * size, random.unit() * size, -far + random.unit() * size};
   samples.spacing = {size / across, size * random.between(0.01, 0.1), size * random.unit()};
