@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "printability/components.h"
@@ -242,12 +243,16 @@ class Inspection {
     }
   }
 
-  /// Of several parts without a plate, the largest is the part itself.
+  /// Of several parts without a plate, the largest is the part itself, and of equal ones the first.
   void add_part(const ComponentTotals& part) {
     if (plan_.has_plate) return add(FindingKind::loose, part);
+    const auto begin_of = [](const ComponentTotals& of) {
+      return std::tuple(of.first_layer, of.place[1], of.place[0]);
+    };
     if (!part_) {
       part_ = part;
-    } else if (part.samples > part_->samples) {
+    } else if (part.samples > part_->samples ||
+               (part.samples == part_->samples && begin_of(part) < begin_of(*part_))) {
       add(FindingKind::loose, *part_);
       part_ = part;
     } else {

@@ -216,6 +216,29 @@ static void only_the_largest_part_counts_without_a_plate(void** state) {
   msq_context_release(context);
 }
 
+/* Two equal towers in space: the one that begins lower, then at the lower y, then x is kept. */
+static void of_equal_parts_the_first_is_kept(void** state) {
+  const double places[][6] = {{0, 0, 1, 4, 0, 0}, {4, 0, 0, 0, 0, 1}, {0, 4, 0, 4, 0, 0},
+                              {4, 0, 0, 0, 4, 0}, {0, 0, 0, 4, 0, 0}, {4, 0, 0, 0, 0, 0},
+                              {0, 0, 0, 0, 4, 1}, {0, 0, 0, 0, 0, 4}};
+  const int second_is_kept[] = {1, 0, 1, 0, 0, 1, 0, 0};
+  msq_context* context = make_context();
+  (void)state;
+  for (int i = 0; i < 8; ++i) {
+    const double* p = places[i];
+    msq_shape* parts[2] = {box_of(context, p[0], p[1], p[2], p[0] + 2, p[1] + 2, p[2] + 3),
+                           box_of(context, p[3], p[4], p[5], p[3] + 2, p[4] + 2, p[5] + 3)};
+    msq_slicer* slicer = slicer_of(context, join(MSQ_BOOLEAN_UNION, parts, 2));
+    msq_printability_def def = printability_def(MSQ_FINDING_LOOSE, 0);
+    const double* loose = second_is_kept[i] ? p : p + 3;
+    assert_int_equal(inspect(slicer, &def, &list).loose_count, 1);
+    assert_box(&list.findings[0], loose[0], loose[1], loose[2], loose[0] + 2, loose[1] + 2,
+               loose[2] + 3);
+    msq_slicer_release(slicer);
+  }
+  msq_context_release(context);
+}
+
 /* A wall of 0.75 beside one of 2, both on a block. */
 static void thin_walls_are_found(void** state) {
   msq_context* context = make_context();
@@ -503,6 +526,7 @@ int main(void) {
       cmocka_unit_test(channels_open_voids),
       cmocka_unit_test(hanging_parts_are_islands),
       cmocka_unit_test(only_the_largest_part_counts_without_a_plate),
+      cmocka_unit_test(of_equal_parts_the_first_is_kept),
       cmocka_unit_test(thin_walls_are_found),
       cmocka_unit_test(cups_close_while_they_print),
       cmocka_unit_test(overhangs_reach_beyond_the_layer_below),
