@@ -359,17 +359,15 @@ IntPath Trails::in_place(End from) const {
 
 /// Whether a line in its place leaves the polygon where it is not where it was.
 bool Trails::leaves(End from) const {
-  const End ends[2] = {from, from ^ 1};
   IntPath line = in_place(from);
-  bool has_moved = false;
-  for (const End end : ends)
-    has_moved = has_moved || side(end) != 0 || !(joint(end) == point_of(end));
-  if (!has_moved) return false;
-  // Ends that stay may be on the border.
   CountedVector<IntPoint>& points = line.points;
   const size_t last = points.size() - 1;
-  if (points[0] == point_of(from)) points[0] = short_of(points[0], points[1]);
-  if (points[last] == point_of(from ^ 1)) points[last] = short_of(points[last], points[last - 1]);
+  const bool begins_there = points[0] == point_of(from),
+             ends_there = points[last] == point_of(from ^ 1);
+  if (begins_there && ends_there && side(from) == 0 && side(from ^ 1) == 0) return false;
+  // Ends that stay may be on the border.
+  if (begins_there) points[0] = short_of(points[0], points[1]);
+  if (ends_there) points[last] = short_of(points[last], points[last - 1]);
   CountedVector<IntPath> parts;
   pairs_.polygon->cut(line, parts);
   return parts.size() != 1 || !(parts[0].points == points);
