@@ -49,6 +49,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 class CopySpans {
+  using Doubles = hn::ScalableTag<double>;
+
  public:
   CopySpans(const RowStruts& struts, const RowTask& task, RowWorkspace& workspace,
             std::vector<LeftSample>& left)
@@ -59,6 +61,12 @@ class CopySpans {
         size_(struts.cell_size[0]),
         extent_(struts.extent) {}
 
+  /// Whether copies take less time than sections: a copy takes as long as so many of their samples.
+  static bool pays(const RowTask& task, double cell_size) {
+    const double samples = hn::Lanes(Doubles()) < 4 ? 80 : 40;
+    return task.unrolled && cell_size >= samples * std::abs(task.unrolled->width);
+  }
+
   /// Finds the copies that reach the columns, which are the same for all rows. False: the strut is
   /// to be drawn by sections. `reach`: its maximum radius.
   HWY_INLINE bool set(const RowStrut& strut, double reach);
@@ -68,7 +76,6 @@ class CopySpans {
   HWY_INLINE void finish() { buffer_.draw(); }
 
  private:
-  using Doubles = hn::ScalableTag<double>;
   using V = hn::Vec<Doubles>;
 
   struct Row {

@@ -299,12 +299,10 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
   }
 }
 
-/// Whether rows are drawn copy by copy: a copy takes about as long as so many samples of a section.
-bool LatticeRows::draws_copies(const RowTask& task, const UnrolledColumns& columns) const {
-  constexpr double least_columns = 40;
+/// Whether columns are numbers on a line, and bits of all rows numbers of 31 bits.
+bool LatticeRows::may_draw_copies(const RowTask& task, const UnrolledColumns& columns) const {
   constexpr size_t max_bits = size_t{1} << 31;
-  const double width = std::abs(columns.width);
-  return parts_.cell_size[0] >= least_columns * width && columns.off <= 0x1p-6 * width &&
+  return columns.off <= 0x1p-6 * std::abs(columns.width) &&
          task.rows < max_bits / (task.row_words() * bits_per_word);
 }
 
@@ -377,7 +375,7 @@ void LatticeRows::set_linear(RowTask& task, const Window& window, const Classes&
   unrolled_ = window.columns.unrolled;
   unrolled_.first = static_cast<double>(window.begin - window.base);
   unrolled_.last = columns - 1;
-  if (draws_copies(task, unrolled_)) task.unrolled = &unrolled_;
+  if (may_draw_copies(task, unrolled_)) task.unrolled = &unrolled_;
   task.section_words = section_words(columns, columns * std::abs(task.slope));
   task.levels.clear();
   for (size_t section = 0; section <= task.sections(); ++section) {

@@ -71,7 +71,7 @@ class LatticeRows {
   void set_levels(RowTask& task, const Window& window, const Classes& rows, uint64_t k);
   void set_linear(RowTask& task, const Window& window, const Classes& rows, uint64_t k);
   void set_whole_rows(RowTask& task, Interval radii, double margin) const;
-  bool draws_copies(const RowTask& task, const UnrolledColumns& columns) const;
+  bool may_draw_copies(const RowTask& task, const UnrolledColumns& columns) const;
   size_t section_words(double columns, double change) const;
 
   const Neighbourhood& cells_;

@@ -282,6 +282,7 @@ HWY_INLINE void mark_sections(const RowStruts& struts, const RowTask& task, RowW
                               std::vector<LeftSample>& left) {
   SectionRows<section_words> rows(struts, task, workspace, left);
   CopySpans copies(struts, task, workspace, left);
+  const bool by_copies = CopySpans::pays(task, struts.cell_size[0]);
   size_t max_left = size_t{1} << 16;
   const RowLevel widest = task.levels[task.widest];
   const double max_of_row =
@@ -290,7 +291,7 @@ HWY_INLINE void mark_sections(const RowStruts& struts, const RowTask& task, RowW
     const double reach = strut.factor * (widest.radius + max_of_row) + widest.margin;
     const double w = task.z - strut.a[2];
     if (w - std::max(strut.ab[2], 0.0) > reach || std::min(strut.ab[2], 0.0) - w > reach) continue;
-    if (task.unrolled && copies.set(strut, reach))
+    if (by_copies && copies.set(strut, reach))
       draw_copies(task, strut, reach, copies);
     else
       rows.draw(strut);

@@ -62,8 +62,8 @@ struct RowTask {
   }
   /// The row's own part of the radius, padded likewise; null: 0.
   const double* of_row;
-  /// Null, or the radius is linear along the rows and has of_row, and there are so few cells in a
-  /// row that each copy of a strut is drawn for itself.
+  /// Null, or the radius is linear along the rows and has of_row. Then each copy of a strut may be
+  /// drawn for itself, which pays if few cells are in a row.
   const UnrolledColumns* unrolled;
 
   /// The radius at a sample, within `margin`: that of `field` or, if null, the row's own and radius
