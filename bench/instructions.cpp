@@ -43,15 +43,22 @@ std::vector<double> random_points(size_t count) {
   return coordinates;
 }
 
-msq_model* make_lattice(msq_context* context, int cells, bool is_turned) {
+msq_model* make_lattice(msq_context* context, int cells, bool is_turned, bool is_graded = false) {
   msq_lattice_def def;
   check(msq_lattice_def_init(&def, sizeof def));
   def.unit_cell = MSQ_UNIT_CELL_OCTET;
   for (double& size : def.grid.cell_size) size = 1.0 / cells;
   def.radius.value = 0.08 / cells;
   if (is_turned) bench::turn(def.grid);
+  msq_field* gradient = nullptr;
+  if (is_graded) {
+    const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+    check(msq_field_gradient(context, low, 0.04 / cells, high, 0.12 / cells, &gradient));
+    def.radius = {0, gradient};
+  }
   msq_structure* lattice;
   check(msq_structure_lattice(context, &def, &lattice));
+  msq_field_release(gradient);
   return bench::make_model(context, bench::make_cube(context), lattice);
 }
 
@@ -326,6 +333,8 @@ std::vector<Kernel> kernels() {
         {"waves: rows", with(make_waves, slices(32))},
         {"lattice: rows along the grid", with(lattice(9, false), slices(64))},
         {"lattice: rows of a turned grid", with(lattice(9, true), slices(16))},
+        {"lattice: rows, radius by a gradient",
+         with([](msq_context* c) { return make_lattice(c, 4, false, true); }, slices(64))},
         {"lattice: rays", with(lattice(9, false), picture(96))},
         {"lattice: contours", with(lattice(9, false), outline)},
         {"functional: rows along the grid", with(gyroid(9, false), slices(64))},
