@@ -5,24 +5,30 @@
 //
 // Let x be the position along the row from the end a of a copy, and G the slope of the radius R(x)
 // = R(0) + G x. The distance from the axis is convex in x and R is linear, so each copy has one
-// span. With q = A / |d|^2 and the point c nearest to the axis's line (row_kernel.cpp), its ends on
-// the body are those of k^2 + q (x - c)^2 = R(x)^2: with W = 1 / (q - G^2)
-//   x = c + W G R(c) -+ sqrt(q W^2 R(c)^2 - W k^2),
-// and about an end at a distance rho from the row the same with q = 1, c the end's position and rho
-// in place of k. As for a constant radius, the end a gives those ends of a span where s < 0, and b
-// those where s > |d|^2. Where q > G^2, what solves the squared equation is one interval, with R >
-// 0 or R < 0 throughout.
+// span. A, d, k and e are those of row_kernel.cpp, and q = A / |d|^2. The body holds the x with
+// k^2 + q (x - c)^2 <= R(x)^2, where c is the point of the row nearest to the axis's line. If W =
+// 1 / (q - G^2), its ends are
+//   x = c + W G R(c) -+ sqrt(q W^2 R(c)^2 - W k^2).
+// The ends of the sphere about a are those for q = 1, c = 0 and the distance of a from the row in
+// place of k; b likewise. Let s = x dx + e, which is 0 beside a and |d|^2 beside b. As for a
+// constant radius, an end of the body with s < 0 is replaced by that of a, and one with s > |d|^2
+// by that of b. Since q > G^2, the inequality holds in one interval, where R has one sign.
+// Intervals with R < 0 are left out.
 //
-// Bounds. Struts with q < 1/16 or G^2 > q / 4 are drawn by sections. So W, q W^2 and what takes
-// their place about the ends are at most 2 / q. Squared distances have errors of at most 2^-46 S^2,
-// and radii of at most `margin`; together, that of k^2 - R^2 is at most F = 2^-46 S^2 + 2 margin
-// (max R + margin), and that of the discriminants 2 F / q. A root is then wrong by at most the root
-// of 4 F / q, and so may s be, in units of length: where the wrong of body and end is chosen, the
-// distance from the end, squared, differs from that from the line by at most its square (twice
-// that, squared, if both choices are wrong). So E = 128 F / q^2 bounds the error of the
-// discriminants with all this, and that of a root is at most E / (0.7 root) where the
-// root is greater than sqrt(E), and sqrt(E) / 0.7 elsewhere. Columns lie within `off` of a line: a
-// shift of x by so much, or of R by less.
+// Bounds. Struts with q < 1/16 or G^2 > q / 4 are drawn by sections, and so are points. So W, q W^2
+// and what takes their place about the ends are at most 2 / q, and |G| W <= 2 / q. `margin` bounds
+// the error of a radius, and the distance of a column from the line of columns, which changes the
+// distance from the axis by as much at most. `reach` is the maximum radius in the columns. Where an
+// end is in the columns, |R(c)| <= 1.5 reach. Squared distances have errors of at most 2^-46 S^2.
+// So the error of k^2 - R^2 is at most F = 2^-46 S^2 + 4 margin (reach + margin), and that of a
+// discriminant at most 2 F / q. Then a root is wrong by at most the root of 4 F / q. If s is that
+// near to 0, in units of length, the wrong one of body and end may be chosen. There the squared
+// distances from the line and from the end differ by at most 4 F / q, four times that if both ends
+// are chosen wrongly. So the discriminants are those of the strut within E = 128 F / q^2. A root is
+// then wrong by at most E / (0.7 root) if it is greater than sqrt(E), and by sqrt(E) / 0.7
+// otherwise. The centre of a span adds |G| W margin, rounding adds 2^-46 S / q, and the line of
+// columns adds `margin`: together at most 4 (margin + 2^-46 S) / q. The radius at an end is wrong
+// by `margin` and by |G| times the error of the end.
 #if defined(MSQ_COPY_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_COPY_SPANS_INL_H
 #undef MSQ_COPY_SPANS_INL_H
@@ -61,7 +67,8 @@ class CopySpans {
         size_(struts.cell_size[0]),
         extent_(struts.extent) {}
 
-  /// Whether copies take less time than sections: a copy takes as long as so many of their samples.
+  /// Whether copies take less time than sections. A copy takes about as long as `samples` samples
+  /// of a section.
   static bool pays(const RowTask& task, double cell_size) {
     const double samples = hn::Lanes(Doubles()) < 4 ? 80 : 40;
     return task.unrolled && cell_size >= samples * std::abs(task.unrolled->width);
@@ -70,7 +77,9 @@ class CopySpans {
   /// Finds the copies that reach the columns, which are the same for all rows. False: the strut is
   /// to be drawn by sections. `reach`: its maximum radius.
   HWY_INLINE bool set(const RowStrut& strut, double reach);
-  /// Draws a row that is within `reach` of the strut. (v, w): from the end a to the row.
+  /// Rows farther from the strut meet no copy.
+  double reach() const { return reach_; }
+  /// Draws a row that is within reach() of the strut. (v, w): from the end a to the row.
   HWY_INLINE void draw_row(size_t row, double v, double w);
   /// Draws what was gathered.
   HWY_INLINE void finish() { buffer_.draw(); }
@@ -106,13 +115,16 @@ class CopySpans {
   double body_ = 0, end_ = 0;  // W, and in its place about the ends
   double body_root_ = 0;       // sqrt(q) W
   double max_radius_ = 0;      // of copies, without the row's own part
-  double error_ = 0, end_error_ = 0, margin_ = 0;
+  double margin_ = 0, reach_ = 0;
+  double error_ = 0, end_error_ = 0, radius_error_ = 0;
   // Errors of ends, in columns, where the root is greater than far_root_ and elsewhere.
   double far_root_ = 0, far_by_ = 0, near_by_ = 0;
 };
 
 HWY_INLINE bool CopySpans::set(const RowStrut& strut, double reach) {
   const UnrolledColumns& columns = *task_.unrolled;
+  margin_ = task_.margin + columns.off;
+  reach_ = reach + margin_;
   factor_ = strut.factor;
   dx_ = strut.ab[0];
   dy_ = strut.ab[1];
@@ -120,7 +132,11 @@ HWY_INLINE bool CopySpans::set(const RowStrut& strut, double reach) {
   const double across = dy_ * dy_ + dz_ * dz_;
   squared_ = dx_ * dx_ + across;
   slope_ = factor_ * task_.slope / columns.width;
-  if (!(across >= 0x1p-4 * squared_) || !(4 * slope_ * slope_ * squared_ <= across)) return false;
+  // Squares of shorter struts underflow.
+  constexpr double least_across = 1e-300;
+  if (!(across >= std::max(0x1p-4 * squared_, least_across)) ||
+      !(4 * slope_ * slope_ * squared_ <= across))
+    return false;
   const double q = across / squared_;
   inverse_across_ = 1 / across;
   body_ = 1 / (q - slope_ * slope_);
@@ -128,8 +144,8 @@ HWY_INLINE bool CopySpans::set(const RowStrut& strut, double reach) {
   end_ = 1 / (1 - slope_ * slope_);
 
   const double first = columns.position(columns.first), last = columns.position(columns.last);
-  const double begin = strut.a[0] + std::min(dx_, 0.0) - reach,
-               end = strut.a[0] + std::max(dx_, 0.0) + reach;
+  const double begin = strut.a[0] + std::min(dx_, 0.0) - reach_,
+               end = strut.a[0] + std::max(dx_, 0.0) + reach_;
   constexpr double slack = 1e-6;  // of a cell
   const double low = std::ceil((std::min(first, last) - end) / size_ - slack),
                high = std::floor((std::max(first, last) - begin) / size_ + slack);
@@ -147,21 +163,22 @@ HWY_INLINE bool CopySpans::set(const RowStrut& strut, double reach) {
     const double at = column + static_cast<double>(copy) * columns_apart;
     const double radius = factor_ * (task_.radius + task_.slope * at);
     workspace_.copy_column[n] = at;
-    workspace_.copy_radius[n] = is_there ? radius : -4 * extent_;  // met nowhere
+    // Without a copy: less than 0 wherever a row is within reach.
+    workspace_.copy_radius[n] = is_there ? radius : -4 * extent_;
     max_radius_ = std::max(max_radius_, workspace_.copy_radius[n]);
   }
 
-  margin_ = task_.margin + columns.off;
-  const double from_line = 0x1p-46 * extent_ * extent_ + 2 * margin_ * (reach + margin_);
+  const double from_line = 0x1p-46 * extent_ * extent_ + 4 * margin_ * reach_;
   error_ = 128 * from_line / (q * q);
-  end_error_ = 4 * (margin_ + columns.off + 0x1p-46 * extent_) / q;
-  const double root_error = std::sqrt(error_);
+  end_error_ = 4 * (margin_ + 0x1p-46 * extent_) / q;
+  const double root_error = std::sqrt(error_), near_error = root_error / 0.7 + end_error_;
+  radius_error_ = margin_ + std::abs(slope_) * near_error;
   far_root_ = std::max(0x1p-10 * extent_, root_error);
-  const auto in_columns = [&](double by) {
-    return (by + end_error_) / std::abs(columns.width) + UnrolledColumns::slack;
+  const auto in_columns = [&](double error) {
+    return error / std::abs(columns.width) + UnrolledColumns::slack;
   };
-  far_by_ = in_columns(error_ / (0.7 * far_root_));
-  near_by_ = in_columns(root_error / 0.7);
+  far_by_ = in_columns(error_ / (0.7 * far_root_) + end_error_);
+  near_by_ = in_columns(near_error);
   return true;
 }
 
@@ -197,7 +214,7 @@ HWY_INLINE void CopySpans::draw_copies(const Row& row) {
   const V to_centre = number(slope_ * row.centre), c = number(row.centre);
   const V body_root = number(body_root_), body_shift = number(slope_ * body_);
   const V zero = hn::Zero(d), error = number(error_), none = number(-error_);
-  const V thin = number(margin_), gone = number(-margin_);
+  const V thin = number(radius_error_), gone = number(-radius_error_);
   const V per_column = number(1 / columns.width);
   const V first = number(columns.first), last = number(columns.last);
   const V far_root = number(far_root_), far_by = number(far_by_), near_by = number(near_by_);

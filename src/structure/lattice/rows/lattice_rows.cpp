@@ -299,7 +299,8 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
   }
 }
 
-/// Whether columns are numbers on a line, and bits of all rows numbers of 31 bits.
+/// Whether columns lie on a line, so nearly that copies leave few samples to the predicate, and 31
+/// bits number all bits of the rows.
 bool LatticeRows::may_draw_copies(const RowTask& task, const UnrolledColumns& columns) const {
   constexpr size_t max_bits = size_t{1} << 31;
   return columns.off <= 0x1p-6 * std::abs(columns.width) &&

@@ -100,8 +100,8 @@ HWY_INLINE void SectionRows<section_words>::draw(const RowStrut& strut) {
   const double across = dy_ * dy_ + dz_ * dz_, squared = dx_ * dx_ + across;
   const RowLevel widest = task_.levels[task_.widest];
   inverse_squared_ = squared > 0 ? 1 / squared : 0;
-  // So nearly along the rows that the projection is a point within the error of S.
-  const bool is_along = !(across > 1e-28 * squared);
+  // So nearly along the rows, or so short, that the projection is a point within the error of S.
+  const bool is_along = !(across > std::max(1e-28 * squared, 1e-300));
   const double inverse_across = is_along ? 0 : 1 / across;
 
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
@@ -259,13 +259,12 @@ HWY_INLINE void SectionRows<section_words>::decide(size_t lane, size_t row, size
 }
 
 /// Draws a strut that `copies` is set to.
-HWY_INLINE void draw_copies(const RowTask& task, const RowStrut& strut, double reach,
-                            CopySpans& copies) {
+HWY_INLINE void draw_copies(const RowTask& task, const RowStrut& strut, CopySpans& copies) {
   const Doubles d;
   const double w = task.z - strut.a[2];
   const double across = strut.ab[1] * strut.ab[1] + strut.ab[2] * strut.ab[2];
   const V dy = hn::Set(d, strut.ab[1]), dz = hn::Set(d, strut.ab[2]), from_a = hn::Set(d, w);
-  const V inverse = hn::Set(d, 1 / across), reach2 = hn::Set(d, reach * reach);
+  const V inverse = hn::Set(d, 1 / across), reach2 = hn::Set(d, copies.reach() * copies.reach());
   for (size_t j = 0; j < task.rows; j += hn::Lanes(d)) {
     const V v = hn::Sub(hn::LoadU(d, task.y + j), hn::Set(d, strut.a[1]));
     uint64_t met = bits_of(d, hn::Le(flat_distance2(v, from_a, dy, dz, inverse), reach2));
@@ -292,7 +291,7 @@ HWY_INLINE void mark_sections(const RowStruts& struts, const RowTask& task, RowW
     const double w = task.z - strut.a[2];
     if (w - std::max(strut.ab[2], 0.0) > reach || std::min(strut.ab[2], 0.0) - w > reach) continue;
     if (by_copies && copies.set(strut, reach))
-      draw_copies(task, strut, reach, copies);
+      draw_copies(task, strut, copies);
     else
       rows.draw(strut);
     if (left.size() < max_left) continue;

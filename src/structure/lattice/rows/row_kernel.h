@@ -24,8 +24,8 @@ struct RowLevel {
 struct UnrolledColumns {
   double zero;   ///< the position of column 0
   double width;  ///< from a column to the next; negative if positions decrease
-  double off;    ///< maximum distance of a column from where these two numbers put it
-  double first, last;
+  double off;    ///< maximum distance of a column, modulo the cell, from where these numbers put it
+  double first, last;  ///< columns that may be alive
 
   /// Rounding of column numbers.
   static constexpr double slack = 1e-9;
@@ -62,8 +62,8 @@ struct RowTask {
   }
   /// The row's own part of the radius, padded likewise; null: 0.
   const double* of_row;
-  /// Null, or the radius is linear along the rows and has of_row. Then each copy of a strut may be
-  /// drawn for itself, which pays if few cells are in a row.
+  /// Null, or the radius is linear along the rows, and of_row is set. Then each copy of a strut may
+  /// be drawn for itself, which pays if few cells are in a row.
   const UnrolledColumns* unrolled;
 
   /// The radius at a sample, within `margin`: that of `field` or, if null, the row's own and radius
