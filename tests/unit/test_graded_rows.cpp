@@ -135,8 +135,8 @@ void samples_are_as_defined(void**) {
   assert_true(inside > 500 * models);
 }
 
-/// Rows within a few roundings of touching a strut along z, whose samples include the point of
-/// contact: rounding decides whether it is inside.
+/// Rows within a few roundings of touching a strut along z, at its body or at the sphere about its
+/// end, whose samples include the point of contact: rounding decides whether it is inside.
 void rows_that_touch_are_as_defined(void**) {
   const size_t models = test_count(2000);
   size_t inside = 0, outside = 0;
@@ -149,10 +149,14 @@ void rows_that_touch_are_as_defined(void**) {
     samples.ny = 32;
     samples.nz = 1;
     samples.spacing = {1 / random.between(60, 120), 0x1p-53, 1};
-    const Vec3 contact{1 + slope * radius / shrunk, 1 + radius / std::sqrt(shrunk), 0.5};
+    const double reach = radius / std::sqrt(shrunk);
+    // Beyond the end at z = 0.5, or beside the body.
+    const double beyond = n % 2 ? reach * random.between(0.1, 0.9) : 0;
+    const Vec3 contact{1 + slope * radius / shrunk, 1 + std::sqrt(reach * reach - beyond * beyond),
+                       0.5 + beyond};
     samples.origin = contact - Vec3{100 * samples.spacing.x, 16 * samples.spacing.y, 0};
     const Lattice lattice(
-        {{0, 0, 0}, {1, 1, 1}, {}}, cubic_unit_cell(),
+        {{0, 0, 0}, {1, 1, 1}, {}}, {{{0, 0, 0.2}, {0, 0, 0.5}}, {{0, 1}}, {}},
         Parameter(Ref<const Field>(make_ref<GradientField>(Vec3{-1, 0, 0}, radius - 2 * slope,
                                                            Vec3{3, 0, 0}, radius + 2 * slope))));
     BitRows rows(samples);
