@@ -38,7 +38,8 @@ HWY_INLINE size_t shapes(D d, const RasterTarget& target) {
 
 struct StrutSetups {
   enum Kernel : int32_t { none = 0, general = 1, few = 2, fast = 3 };
-  /// Maximum number of vectors of a strut of kernel `few`: few of long vectors.
+  /// Maximum number of vectors of a strut of kernel `few`; half of it if they have 16 lanes or
+  /// more.
   static constexpr size_t max_few = 4;
   static constexpr size_t room = StrutBatch::capacity + StrutBatch::padding;
 
@@ -196,7 +197,8 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     serves = hn::And(serves, hn::Lt(whole, hn::Set(d, 65536.0)));
     serves = hn::And(serves, hn::Lt(hn::Abs(column), hn::Set(d, 0x1p30)));
     const auto chosen = layout(d, FullLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
-    const double most = hn::Lanes(FullLanes()) < 16 ? StrutSetups::max_few : 2;
+    const double most =
+        hn::Lanes(FullLanes()) < 16 ? StrutSetups::max_few : StrutSetups::max_few / 2;
     const auto is_few = hn::Le(chosen.vectors, hn::Set(d, most));
     const auto fast = hn::IfThenElse(is_few, hn::Set(d, double{StrutSetups::few}),
                                      hn::Set(d, double{StrutSetups::fast}));

@@ -27,8 +27,8 @@ double FoamGraph::critical_samples(const Box3&, double max_radius) const {
   return at_tenth * 0.01 / (r * r);
 }
 
-// Drawing a cell takes 0.4 us, a sample of radius 0.1 19 ns, one of radius 0.2 63 ns. So it is 0.35
-// to 0.5.
+// Drawing a cell takes 0.4 us, a sample of radius 0.1 19 ns, one of radius 0.2 63 ns. So it is 0.45
+// to 0.55.
 double FoamGraph::drawing_share() const {
   return 0.5;
 }

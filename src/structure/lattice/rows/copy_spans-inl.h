@@ -132,9 +132,7 @@ HWY_INLINE bool CopySpans::set(const RowStrut& strut, double reach) {
   const double across = dy_ * dy_ + dz_ * dz_;
   squared_ = dx_ * dx_ + across;
   slope_ = factor_ * task_.slope / columns.width;
-  // Squares of shorter struts underflow.
-  constexpr double least_across = 1e-300;
-  if (!(across >= std::max(0x1p-4 * squared_, least_across)) ||
+  if (!(across >= std::max(0x1p-4 * squared_, RowStrut::least_square)) ||
       !(4 * slope_ * slope_ * squared_ <= across))
     return false;
   const double q = across / squared_;

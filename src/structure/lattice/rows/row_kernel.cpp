@@ -101,7 +101,7 @@ HWY_INLINE void SectionRows<section_words>::draw(const RowStrut& strut) {
   const RowLevel widest = task_.levels[task_.widest];
   inverse_squared_ = squared > 0 ? 1 / squared : 0;
   // So nearly along the rows, or so short, that the projection is a point within the error of S.
-  const bool is_along = !(across > std::max(1e-28 * squared, 1e-300));
+  const bool is_along = !(across > std::max(1e-28 * squared, RowStrut::least_square));
   const double inverse_across = is_along ? 0 : 1 / across;
 
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);

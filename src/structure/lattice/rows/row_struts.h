@@ -16,6 +16,9 @@ struct RowStrut {
   std::array<double, 3> a, ab;
   double factor;
 
+  /// Inverses of smaller squared lengths may overflow.
+  static constexpr double least_square = 1e-300;
+
   friend bool operator==(const RowStrut&, const RowStrut&) = default;
 };
 
