@@ -4,7 +4,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "base/compress-inl.h"
@@ -18,74 +20,29 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 using D = hn::ScalableTag<float>;
-using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
 
-/// Selects segments by the numbers of their nodes.
-class Selection {
+/// Copies of the ends of some segments, x, y, z and a number without meaning each. Vectors of x, y
+/// and z are made of these copies: to gather them from the nodes takes several times as long.
+class CopiedEnds {
  public:
-  Selection(const SegmentSet& set, const float* low, const float* high, float* const* out)
-      : set_(set), low_(low), high_(high), out_(out) {}
+  static constexpr size_t capacity = 64;
+  static_assert(capacity % (2 * max_simd_doubles) == 0);
 
-  size_t count() const { return count_; }
-
-  /// Whether segments of these nodes, where `in`, meet the box along an axis.
-  template <class VI>
-  HWY_INLINE hn::Mask<D> meets(int axis, VI at_a, VI at_b, hn::Mask<D> in) const {
-    const D d;
-    const auto a = hn::GatherIndex(d, set_.nodes(axis), at_a),
-               b = hn::GatherIndex(d, set_.nodes(axis), at_b);
-    return hn::And(in, hn::And(hn::Le(hn::Min(a, b), hn::Set(d, high_[axis])),
-                               hn::Ge(hn::Max(a, b), hn::Set(d, low_[axis]))));
-  }
-
-  /// Writes the components of those that meet the box.
-  template <class VI>
-  HWY_INLINE void add(VI at_a, VI at_b, hn::Mask<D> in) {
-    const D d;
-    hn::Vec<D> c[6];
-    for (int axis = 0; axis < 3; ++axis) {
-      c[axis] = hn::GatherIndex(d, set_.nodes(axis), at_a);
-      c[axis + 3] = hn::GatherIndex(d, set_.nodes(axis), at_b);
-      in = hn::And(in, hn::And(hn::Le(hn::Min(c[axis], c[axis + 3]), hn::Set(d, high_[axis])),
-                               hn::Ge(hn::Max(c[axis], c[axis + 3]), hn::Set(d, low_[axis]))));
+  template <class Number>
+  HWY_INLINE void copy(const SegmentSet& set, const Number* numbers, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      hwy::Prefetch(set.node(numbers[i + capacity]));  // at most the padding of the numbers
+      std::memcpy(&ends_[4 * i], set.node(numbers[i]), 4 * sizeof(float));
     }
-    const size_t found = hn::CountTrue(d, in);
-    if (!found) return;
-    const Compression<D> compress(in);
-    for (int k = 0; k < 6; ++k) hn::StoreU(compress(c[k]), d, out_[k] + count_);
-    count_ += found;
   }
-
-  /// The same, for an axis along which few meet it: those that do so wait until they fill vectors.
-  template <class VI>
-  HWY_INLINE void add_few(int axis, VI at_a, VI at_b, hn::Mask<D> in) {
-    const DI di;
-    in = meets(axis, at_a, at_b, in);
-    const Compression<DI> compress(hn::RebindMask(di, in));
-    hn::StoreU(compress(at_a), di, waiting_[0] + waiting_count_);
-    hn::StoreU(compress(at_b), di, waiting_[1] + waiting_count_);
-    waiting_count_ += hn::CountTrue(D(), in);
-    if (waiting_count_ < hn::Lanes(di)) return;
-    add(hn::Load(di, waiting_[0]), hn::Load(di, waiting_[1]), hn::FirstN(D(), hn::Lanes(di)));
-    waiting_count_ -= hn::Lanes(di);
-    for (int32_t* numbers : {waiting_[0], waiting_[1]})
-      hn::Store(hn::Load(di, numbers + hn::Lanes(di)), di, numbers);
-  }
-  HWY_INLINE void finish() {
-    const DI di;
-    if (waiting_count_ == 0) return;
-    add(hn::Load(di, waiting_[0]), hn::Load(di, waiting_[1]), hn::FirstN(D(), waiting_count_));
-    waiting_count_ = 0;
+  HWY_INLINE void get(size_t first, V& x, V& y, V& z) const {
+    V no_meaning;
+    hn::LoadInterleaved4(D(), &ends_[4 * first], x, y, z, no_meaning);
   }
 
  private:
-  const SegmentSet& set_;
-  const float* const low_;
-  const float* const high_;
-  float* const* const out_;
-  size_t count_ = 0, waiting_count_ = 0;
-  // Lanes without a segment are gathered too, so they are numbers of nodes.
-  HWY_ALIGN int32_t waiting_[2][4 * max_simd_doubles] = {};
+  HWY_ALIGN float ends_[4 * capacity] = {};
 };
 
 /// Writes the components of the segments that meet the box [low, high] to `out`; returns their
@@ -94,39 +51,35 @@ template <class Number>
 size_t select(const SegmentSet& set, const Number* a, const Number* b, const float* low,
               const float* high, float* const* out) {
   const D d;
-  const DI di;
-  const hn::Rebind<Number, D> dn;
-  const size_t lanes = hn::Lanes(d);
-  const auto numbers = [&](const Number* ends) HWY_ATTR {
-    if constexpr (sizeof(Number) == 2)
-      return hn::PromoteTo(di, hn::LoadU(dn, ends));
-    else
-      return hn::BitCast(di, hn::LoadU(dn, ends));
+  CopiedEnds of_a, of_b;
+  size_t count = 0;
+  const auto add = [&](size_t first, size_t lanes) HWY_ATTR {
+    V c[6];
+    of_a.get(first, c[0], c[1], c[2]);
+    of_b.get(first, c[3], c[4], c[5]);
+    auto in = hn::FirstN(d, lanes);
+    for (size_t axis = 0; axis < 3; ++axis)
+      in = hn::And(in, hn::And(hn::Le(hn::Min(c[axis], c[axis + 3]), hn::Set(d, high[axis])),
+                               hn::Ge(hn::Max(c[axis], c[axis + 3]), hn::Set(d, low[axis]))));
+    const size_t found = hn::CountTrue(d, in);
+    if (!found) return;
+    const Compression<D> compress(in);
+    for (int k = 0; k < 6; ++k) hn::StoreU(compress(c[k]), d, out[k] + count);
+    count += found;
   };
-  // Where the box is thin, as that of a single layer, most segments miss it along one axis.
-  int thin = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (high[axis] - low[axis] < high[thin] - low[thin]) thin = axis;
-  Selection selection(set, low, high, out);
   for (size_t run = 0; run < set.runs(); ++run) {
     bool meets = true;
     for (int axis = 0; axis < 3; ++axis)
       meets &= set.bound(axis)[run] <= high[axis] && set.bound(axis + 3)[run] >= low[axis];
     if (!meets) continue;
-    const bool has_few =
-        2 * (high[thin] - low[thin]) < set.bound(thin + 3)[run] - set.bound(thin)[run];
-    const size_t end = set.run_end(run);
-    for (size_t i = set.run_start(run); i < end; i += lanes) {
-      const auto at_a = numbers(a + i), at_b = numbers(b + i);
-      const auto in = hn::RebindMask(d, hn::FirstN(di, end - i));
-      if (has_few)
-        selection.add_few(thin, at_a, at_b, in);
-      else
-        selection.add(at_a, at_b, in);
+    for (size_t i = set.run_start(run); i < set.run_end(run); i += CopiedEnds::capacity) {
+      const size_t copied = std::min(CopiedEnds::capacity, set.run_end(run) - i);
+      of_a.copy(set, a + i, copied);
+      of_b.copy(set, b + i, copied);
+      for (size_t n = 0; n < copied; n += hn::Lanes(d)) add(n, copied - n);
     }
   }
-  selection.finish();
-  return selection.count();
+  return count;
 }
 
 size_t select_segments(const SegmentSet& set, const float* low, const float* high,

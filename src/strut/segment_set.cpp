@@ -11,10 +11,13 @@ namespace msq {
 SegmentSet::SegmentSet(const std::vector<Node>& nodes,
                        const std::vector<std::array<uint32_t, 2>>& ends,
                        const std::vector<uint32_t>& starts)
-    : count_(ends.size()), node_count_(nodes.size()), nodes_(3 * nodes.size()), starts_(starts) {
+    : count_(ends.size()),
+      node_count_(nodes.size()),
+      nodes_(3 * nodes.size() + node_padding),
+      starts_(starts) {
   starts_.push_back(static_cast<uint32_t>(count_));
   for (size_t i = 0; i < node_count_; ++i)
-    for (size_t axis = 0; axis < 3; ++axis) nodes_[axis * node_count_ + i] = nodes[i][axis];
+    for (size_t axis = 0; axis < 3; ++axis) nodes_[3 * i + axis] = nodes[i][axis];
   const auto set_ends = [&](auto& numbers) {
     using Number = typename std::decay_t<decltype(numbers)>::value_type;
     numbers.resize(2 * count_ + padding);
@@ -49,7 +52,7 @@ SegmentSet::SegmentSet(const std::vector<FloatSegment>& segments,
 
 SegmentSet::SegmentSet(Arrays&& arrays)
     : count_(arrays.starts.back()),
-      node_count_(arrays.nodes.size() / 3),
+      node_count_((arrays.nodes.size() - node_padding) / 3),
       nodes_(std::move(arrays.nodes)),
       bounds_(std::move(arrays.bounds)),
       narrow_(std::move(arrays.ends)),
@@ -61,11 +64,10 @@ void SegmentSet::set_bounds(const std::vector<Number>& ends) {
   bounds_.resize(6 * runs());
   for (size_t run = 0; run < runs(); ++run)
     for (size_t axis = 0; axis < 3; ++axis) {
-      const float* coordinate = nodes_.data() + axis * node_count_;
       float low = inf, high = -inf;
       for (size_t end = 0; end < 2; ++end)
         for (size_t i = run_start(run); i < run_end(run); ++i) {
-          const float x = coordinate[ends[end * count_ + i]];
+          const float x = node(ends[end * count_ + i])[axis];
           low = std::min(low, x);
           high = std::max(high, x);
         }
@@ -77,15 +79,15 @@ void SegmentSet::set_bounds(const std::vector<Number>& ends) {
 // Rounding keeps the order of numbers, so bounds stay those of the nodes.
 SegmentSet SegmentSet::stretched(Vec3 factor) const {
   SegmentSet set = *this;
-  const auto multiply = [](float* values, size_t count, double by) {
-    for (size_t i = 0; i < count; ++i)
-      values[i] = static_cast<float>(static_cast<double>(values[i]) * by);
+  const auto multiply = [](float& value, double by) {
+    value = static_cast<float>(static_cast<double>(value) * by);
   };
   for (int axis = 0; axis < 3; ++axis) {
     const auto from = static_cast<size_t>(axis);
-    multiply(set.nodes_.data() + from * node_count_, node_count_, factor[axis]);
+    for (size_t i = 0; i < node_count_; ++i) multiply(set.nodes_[3 * i + from], factor[axis]);
     for (const size_t bound : {from, from + 3})
-      multiply(set.bounds_.data() + bound * runs(), runs(), factor[axis]);
+      for (size_t run = 0; run < runs(); ++run)
+        multiply(set.bounds_[bound * runs() + run], factor[axis]);
   }
   return set;
 }
@@ -95,8 +97,8 @@ FloatSegment SegmentSet::at(size_t i) const {
   const size_t b = is_wide() ? wide_ends(1)[i] : narrow_ends(1)[i];
   FloatSegment segment;
   for (int axis = 0; axis < 3; ++axis) {
-    segment.a[axis] = nodes(axis)[a];
-    segment.b[axis] = nodes(axis)[b];
+    segment.a[axis] = node(a)[axis];
+    segment.b[axis] = node(b)[axis];
   }
   return segment;
 }

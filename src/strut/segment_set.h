@@ -31,9 +31,10 @@ class SegmentSet {
   SegmentSet(const std::vector<FloatSegment>& segments, const std::vector<uint32_t>& starts);
 
   static constexpr size_t padding = 2 * max_simd_doubles;  // lanes of the widest vector of floats
+  static constexpr size_t node_padding = 1;                // of floats
   /// A set of at most 65,536 nodes as it is stored.
   struct Arrays {
-    std::vector<float> nodes;      // x of all nodes, then y, then z
+    std::vector<float> nodes;      // x, y and z of each node in turn, then node_padding
     std::vector<uint16_t> ends;    // all first ends, then all second ends, then the padding
     std::vector<float> bounds;     // bound 0 of all runs, then bound 1, up to 5
     std::vector<uint32_t> starts;  // of runs, and the number of segments
@@ -46,10 +47,8 @@ class SegmentSet {
   size_t count() const { return count_; }
   FloatSegment at(size_t i) const;
 
-  /// Coordinates of the nodes.
-  const float* nodes(int axis) const {
-    return nodes_.data() + static_cast<size_t>(axis) * node_count_;
-  }
+  /// Coordinates of a node. A fourth number may be read.
+  const float* node(size_t number) const { return nodes_.data() + 3 * number; }
   /// First or second ends of all segments, as numbers of nodes, of 16 or 32 bits. A full vector may
   /// be read at any of them.
   bool is_wide() const { return node_count_ > 0x10000; }
@@ -73,8 +72,9 @@ class SegmentSet {
   void set_bounds(const std::vector<Number>& ends);
 
   size_t count_ = 0, node_count_ = 0;
-  std::vector<float> nodes_, bounds_;  // one array after the other
-  std::vector<uint16_t> narrow_;       // likewise, then the padding
+  std::vector<float> nodes_;      // as in Arrays
+  std::vector<float> bounds_;     // likewise
+  std::vector<uint16_t> narrow_;  // ends, likewise
   std::vector<uint32_t> wide_;
   std::vector<uint32_t> starts_;  // with the end of the last run
 };

@@ -326,9 +326,9 @@ bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner, int cells, const
 SegmentSet FacetWalk::segments() const {
   SegmentSet::Arrays arrays;
   const size_t nodes = s_.tetrahedra, edges = s_.starts[side * side];
-  arrays.nodes.resize(3 * nodes);
+  arrays.nodes.resize(3 * nodes + SegmentSet::node_padding);
   for (size_t i = 0; i < nodes; ++i)
-    for (size_t k = 0; k < 3; ++k) arrays.nodes[k * nodes + i] = s_.centres[i][k];
+    for (size_t k = 0; k < 3; ++k) arrays.nodes[3 * i + k] = s_.centres[i][k];
   arrays.ends.resize(2 * edges + SegmentSet::padding);
   std::copy_n(s_.firsts, edges, arrays.ends.data());
   std::copy_n(s_.seconds, edges, arrays.ends.data() + edges);
