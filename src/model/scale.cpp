@@ -46,6 +46,12 @@ void Scale::keep_rows(const RowBlock& block, const Job* job) const {
   for_words([](uint64_t kept, uint64_t in_skin) { return kept | in_skin; });
 }
 
+void Scale::draw_rows(const RowBlock& block, const Job* job) const {
+  if (skin.is_none()) return structure->draw_rows(block, job);
+  set_all_bits(block);
+  keep_rows(block, job);
+}
+
 void Scale::enter(RaySearch* searches, size_t count, const Job* job) const {
   if (skin.is_none()) return structure->enter(searches, count, job);
   // The skin comes first: it shortens the search of the structure.

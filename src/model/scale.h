@@ -37,6 +37,8 @@ struct Scale {
 
   /// Clears the bits of samples that are outside, in rows of samples of the shape.
   void keep_rows(const RowBlock& block, const Job* job) const;
+  /// As Structure::draw_rows().
+  void draw_rows(const RowBlock& block, const Job* job) const;
 };
 
 /// The scales that a query resolves, coarsest first; of a model of regions, those of all regions in

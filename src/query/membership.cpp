@@ -132,6 +132,43 @@ void fill_shape(const Shape& shape, const RowBlock& block) {
   }
 }
 
+uint64_t points_of(const RowBlock& block) {
+  return block.grid->nx * block.rows() * block.layers();
+}
+
+/// fill_shape(), counted.
+void fill_shape(const Model& model, const Scales& resolved, const RowBlock& block,
+                QueryCounts* counts) {
+  fill_shape(model.shape(), block);
+  if (!counts) return;
+  const uint64_t points = points_of(block);
+  counts->points += points;
+  counts->by_shape += resolved.empty() ? points : points - samples_of(block);
+}
+
+/// Of the samples of the shape, keeps those of each scale in turn. `are_all_in_shape`: all are,
+/// though no bits say so.
+void keep_scales(const Scales& resolved, const RowBlock& tile, bool are_all_in_shape,
+                 const Job* job, QueryCounts* counts) {
+  for (const Scale* scale : resolved) {
+    const bool draws = are_all_in_shape && scale == resolved.front();
+    if (const uint64_t living = !counts ? 0 : draws ? points_of(tile) : samples_of(tile))
+      counts->add_group(living);
+    draws ? scale->draw_rows(tile, job) : scale->keep_rows(tile, job);
+  }
+}
+
+/// The samples of a model that is one region.
+void fill_tile(const Model& model, const Scales& resolved, const RowBlock& tile, const Job* job,
+               QueryCounts* counts) {
+  const bool are_all_in_shape = !resolved.empty() && model.shape().holds_block(tile);
+  if (!are_all_in_shape)
+    fill_shape(model, resolved, tile, counts);
+  else if (counts)
+    counts->points += points_of(tile);
+  keep_scales(resolved, tile, are_all_in_shape, job, counts);
+}
+
 /// Tiles of the rows of a block, one after the other in the order of a slab's.
 template <class Visit>
 void for_each_tile(const RowBlock& block, uint64_t rows, const Executor& executor, const Job* job,
@@ -161,9 +198,8 @@ void fill_regions(const Model& model, const Scales& resolved, const RowBlock& bl
   const RowBlock taken = copy_of(block, taken_words.data());
   const RowBlock own = copy_of(block, own_words.data());
   if (counts) {
-    const uint64_t points = block.grid->nx * block.rows() * block.layers();
-    counts->points += points;
-    counts->by_shape += points;
+    counts->points += points_of(block);
+    counts->by_shape += points_of(block);
   }
   for (size_t r = 0; r < model.regions().size(); ++r) {
     const Model& region = *model.regions()[r];
@@ -191,10 +227,7 @@ void fill_regions(const Model& model, const Scales& resolved, const RowBlock& bl
     for_each_tile(rows, at_once, executor, job, [&](const RowBlock& tile) {
       if (!has_samples(tile)) return;
       if (counts && !scales.empty()) counts->by_shape -= samples_of(tile);
-      for (const Scale* scale : scales) {
-        if (const uint64_t living = counts ? samples_of(tile) : 0) counts->add_group(living);
-        scale->keep_rows(tile, job);
-      }
+      keep_scales(scales, tile, false, job, counts);
       for (uint64_t k = tile.z0; k < tile.z1; ++k)
         for (uint64_t j = tile.y0; j < tile.y1; ++j) {
           uint64_t* row = block.row(j, k);
@@ -229,20 +262,13 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
     return;
   }
 
-  const auto fill_from_shape = [&](const RowBlock& block) {
-    fill_shape(model.shape(), block);
-    if (!counts) return;
-    const uint64_t points = grid.nx * block.rows() * block.layers();
-    counts->points += points;
-    counts->by_shape += resolved.empty() ? points : points - samples_of(block);
-  };
   const bool is_by_tile = fills_by_tile(model, resolved);
   if (!is_by_tile) {
     // Threads take equal shares of the layers.
     const uint64_t at_once = model.shape().layers_together() * executor.threads();
     const uint64_t parts = executor.threads() * ((z1 - z0 + at_once - 1) / at_once);
     for_each_layer((z1 - z0 + parts - 1) / parts, [&](const RowBlock& block) {
-      fill_from_shape(block);
+      fill_shape(model, resolved, block, counts);
       if (resolved.empty() && finish) finish(block, 1);
     });
   }
@@ -252,11 +278,10 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   // one slab is high, which the cache must hold at least (docs/benchmarks.md).
   const uint64_t rows = rows_of_tile(model, resolved, grid, slab.layers());
   for_each_tile(slab, rows, executor, job, [&](const RowBlock& block) {
-    if (is_by_tile) fill_from_shape(block);
-    for (const Scale* scale : resolved) {
-      if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
-      scale->keep_rows(block, job);
-    }
+    if (is_by_tile)
+      fill_tile(model, resolved, block, job, counts);
+    else
+      keep_scales(resolved, block, false, job, counts);
     if (finish) finish(block, 1);
   });
 }
@@ -277,8 +302,7 @@ void fill_tiles(const Model& model, const Scales& resolved, const SampleGrid& gr
                   const size_t size = tile.row_words() * tile.rows() * tile.layers();
                   if (words->size() < size) words->resize(size);
                   const RowBlock block = copy_of(tile, words->data());
-                  fill_shape(model.shape(), block);
-                  for (const Scale* scale : resolved) scale->keep_rows(block, job);
+                  fill_tile(model, resolved, block, job, nullptr);
                   finish(block, 1);
                 });
 }
@@ -305,8 +329,7 @@ void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleG
       fill_regions(model, resolved, tile, this_thread, job, nullptr);
       continue;
     }
-    fill_shape(model.shape(), tile);
-    for (const Scale* scale : resolved) scale->keep_rows(tile, job);
+    fill_tile(model, resolved, tile, job, nullptr);
     check_cancelled(job);
   }
 }

@@ -23,11 +23,9 @@ class AllSpace final : public Shape {
   }
   double leave(const Ray&, double, double to, const Job*) const override { return to; }
   Vec3 normal(const Ray& ray, double) const override { return ray.direction * -1.0; }
-  void fill_rows(const RowBlock& block) const override {
-    for (uint64_t k = block.z0; k < block.z1; ++k)
-      for (uint64_t j = block.y0; j < block.y1; ++j)
-        set_bits(block.row(j, k), 0, block.grid->nx - 1);
-  }
+  void fill_rows(const RowBlock& block) const override { set_all_bits(block); }
+  bool fills_rows_apart() const override { return true; }
+  bool holds_block(const RowBlock&) const override { return true; }
 
  protected:
   /// Distances are finite.

@@ -40,6 +40,10 @@ class BoxShape final : public Primitive {
   bool cross(const Ray& ray, double from, double to, double& t, double& end,
              const Job* job) const override;
   void fill_rows(const RowBlock& block) const override;
+  bool holds_block(const RowBlock& block) const override {
+    const Box3 samples = block.box();
+    return bounds().contains(samples.min) && bounds().contains(samples.max);
+  }
   bool fill_shallow_rows(double depth, const RowBlock& block) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 

@@ -126,6 +126,8 @@ class Shape : public Described {
   /// Whether fill_rows() of the parts of a layer takes no longer than that of the layer: of other
   /// shapes, each part would search for what meets the layer.
   virtual bool fills_rows_apart() const { return false; }
+  /// Whether all samples of a block are inside, if that is known at once. False is always valid.
+  virtual bool holds_block(const RowBlock&) const { return false; }
   /// How many layers one call of fill_rows() has at best: they share what is found about them.
   virtual uint64_t layers_together() const { return 1; }
 

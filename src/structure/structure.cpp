@@ -21,6 +21,11 @@ void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
 }
 
+void Structure::draw_rows(const RowBlock& block, const Job* job) const {
+  set_all_bits(block);
+  keep_rows(block, job);
+}
+
 bool Structure::is_sloped_everywhere() const {
   const Parameter* const parameter = sloped_parameter();
   return parameter && parameter->lipschitz() < infinity;

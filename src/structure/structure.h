@@ -177,6 +177,9 @@ class Structure : public Described {
   virtual unsigned row_copies() const { return 0; }
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;
+  /// The same of a block all of whose samples are alive, though no bits say so: sets its words.
+  /// Default: sets all bits, and calls keep_rows().
+  virtual void draw_rows(const RowBlock& block, const Job* job) const;
 
  protected:
   /// A kind whose cells vary in size.

@@ -63,31 +63,32 @@ namespace msq {
 
 HWY_EXPORT(raster_struts);
 
-SpanRaster::SpanRaster(const RowBlock& alive) : alive_(alive) {
-  const SampleGrid& grid = *alive.grid;
-  SampleBounds at;
-  if (!find_bounds(alive, at)) return;
+SpanRaster::SpanRaster(const RowBlock& rows, AliveRows alive)
+    : rows_(rows), are_all_alive_(alive == AliveRows::all) {
+  const SampleGrid& grid = *rows.grid;
+  SampleBounds at{0, grid.nx, rows.y0, rows.y1, rows.z0, rows.z1};
+  if (!are_all_alive_ && !find_bounds(rows, at)) return;
   empty_ = false;
   box_ = {grid.at(at.i0, at.j0, at.k0), grid.at(at.i1 - 1, at.j1 - 1, at.k1 - 1)};
   samples_ = static_cast<double>(at.i1 - at.i0) * static_cast<double>(at.j1 - at.j0) *
              static_cast<double>(at.k1 - at.k0);
 
-  for (uint64_t j = alive.y0; j < alive.y1; ++j) y_.push_back(grid.y(j));
-  for (uint64_t k = alive.z0; k < alive.z1; ++k) z_.push_back(grid.z(k));
+  for (uint64_t j = rows.y0; j < rows.y1; ++j) y_.push_back(grid.y(j));
+  for (uint64_t k = rows.z0; k < rows.z1; ++k) z_.push_back(grid.z(k));
   y_.resize(y_.size() + max_simd_doubles, y_.back());
   // One more cache line per layer: neighbouring layers then use different cache sets.
-  layer_words_ = alive.rows() * alive.row_words() + 8;
-  certain_->assign(alive.layers() * layer_words_ + 1, 0);  // a word of room for unaligned writes
+  layer_words_ = rows.rows() * rows.row_words() + 8;
+  certain_->assign(rows.layers() * layer_words_ + 1, 0);  // a word of room for unaligned writes
 }
 
 RasterTarget SpanRaster::target(double margin) {
-  const SampleGrid& grid = *alive_.grid;
+  const SampleGrid& grid = *rows_.grid;
   RasterTarget target;
   target.y = y_.data();
   target.z = z_.data();
-  target.rows = alive_.rows();
-  target.layers = alive_.layers();
-  target.row_words = alive_.row_words();
+  target.rows = rows_.rows();
+  target.layers = rows_.layers();
+  target.row_words = rows_.row_words();
   target.layer_words = layer_words_;
   target.certain = certain_->data();
   target.x0 = grid.x(0);

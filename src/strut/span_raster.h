@@ -15,6 +15,7 @@
 // everywhere, also on grazing rows, where the same error moves the span's end without bound.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -29,10 +30,13 @@
 
 namespace msq {
 
+/// Which samples of rows are alive: those whose bits are set, or all, whatever the bits are.
+enum class AliveRows { some, all };
+
 class SpanRaster {
  public:
-  /// `alive`: the rows to restrict.
-  explicit SpanRaster(const RowBlock& alive);
+  /// The rows to restrict, or to set if all are alive.
+  explicit SpanRaster(const RowBlock& rows, AliveRows alive = AliveRows::some);
 
   /// Bounding box of the samples that are alive. Struts that do not reach it may be left out.
   const Box3& box() const { return box_; }
@@ -75,8 +79,16 @@ class SpanRaster {
 
   RasterTarget target(double margin);
   static void draw(const RasterTarget& target, const StrutBatch& struts, DoubtfulSpans& doubts);
+  /// Words of a row of the block; null if all samples are alive.
+  const uint64_t* alive_row(size_t j, size_t k) const {
+    return are_all_alive_ ? nullptr : rows_.row(rows_.y0 + j, rows_.z0 + k);
+  }
+  /// Samples of a word that are alive and not certain.
+  static uint64_t open_bits(const uint64_t* alive, uint64_t certain, size_t word) {
+    return (alive ? alive[word] : ~uint64_t{0}) & ~certain;
+  }
   uint64_t* certain_row(size_t j, size_t k) {
-    return certain_->data() + k * layer_words_ + j * alive_.row_words();
+    return certain_->data() + k * layer_words_ + j * rows_.row_words();
   }
   /// Samples whose radius is requested together, with their squared distance from a strut.
   struct Queried {
@@ -94,12 +106,13 @@ class SpanRaster {
     const DoubtfulSpan& span = doubtful_[n];
     const size_t word = span.first / bits_per_word;
     hwy::Prefetch(certain_row(span.j, span.k) + word);
-    hwy::Prefetch(alive_.row(alive_.y0 + span.j, alive_.z0 + span.k) + word);
+    if (const uint64_t* alive = alive_row(span.j, span.k)) hwy::Prefetch(alive + word);
   }
   /// Leaves the sample to the predicate.
   void leave(Sample sample);
 
-  RowBlock alive_;
+  RowBlock rows_;
+  bool are_all_alive_;
   bool empty_ = true;
   double samples_ = 0;
   Box3 box_;
@@ -115,7 +128,7 @@ template <class FindRadii>
 void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_radii) {
   doubtful_.clear();
   draw(target(margin), struts, doubtful_);
-  const SampleGrid& grid = *alive_.grid;
+  const SampleGrid& grid = *rows_.grid;
   Queried queried;
   uint32_t strut = UINT32_MAX;
   Vec3 a, ab, slope;
@@ -132,11 +145,11 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
       if (struts.linear) slope = struts.slope(strut);
     }
     uint64_t* const certain = certain_row(span.j, span.k);
-    const uint64_t* const alive = alive_.row(alive_.y0 + span.j, alive_.z0 + span.k);
+    const uint64_t* const alive = alive_row(span.j, span.k);
     for (uint32_t i = span.first; i < span.first + span.count; ++i) {
       const uint64_t bit = uint64_t{1} << (i % bits_per_word);
       uint64_t& word = certain[i / bits_per_word];
-      if (!(alive[i / bits_per_word] & ~word & bit)) continue;
+      if (!(open_bits(alive, word, i / bits_per_word) & bit)) continue;
       const Vec3 p{grid.x(i), y_[span.j], z_[span.k]};
       const Vec3 from_a = p - a;
       const double t = std::clamp(dot(from_a, ab) * inverse_squared, 0.0, 1.0);
@@ -191,11 +204,11 @@ void SpanRaster::add_solids(double margin, Draw&& draw, Holds&& holds) {
     prefetch(n + doubts_ahead);
     const DoubtfulSpan& span = doubtful_[n];
     uint64_t* const certain = certain_row(span.j, span.k);
-    const uint64_t* const alive = alive_.row(alive_.y0 + span.j, alive_.z0 + span.k);
+    const uint64_t* const alive = alive_row(span.j, span.k);
     for (uint32_t i = span.first; i < span.first + span.count; ++i) {
       const uint64_t bit = uint64_t{1} << (i % bits_per_word);
-      if (!(alive[i / bits_per_word] & ~certain[i / bits_per_word] & bit)) continue;
-      if (holds(span.strut, Vec3{alive_.grid->x(i), y_[span.j], z_[span.k]}))
+      if (!(open_bits(alive, certain[i / bits_per_word], i / bits_per_word) & bit)) continue;
+      if (holds(span.strut, Vec3{rows_.grid->x(i), y_[span.j], z_[span.k]}))
         certain[i / bits_per_word] |= bit;
     }
   }
@@ -208,13 +221,16 @@ void SpanRaster::finish(const Job* job, Inside&& inside) {
     const Sample s = left_[n];
     uint64_t& word = certain_row(s.j, s.k)[s.i / bits_per_word];
     const uint64_t bit = uint64_t{1} << (s.i % bits_per_word);
-    if (!(word & bit) && inside(alive_.grid->at(s.i, alive_.y0 + s.j, alive_.z0 + s.k)))
-      word |= bit;
+    if (!(word & bit) && inside(rows_.grid->at(s.i, rows_.y0 + s.j, rows_.z0 + s.k))) word |= bit;
   }
-  for (uint64_t k = 0; k < alive_.layers(); ++k)
-    for (uint64_t j = 0; j < alive_.rows(); ++j)
-      restrict_words(alive_.row(alive_.y0 + j, alive_.z0 + k), certain_row(j, k),
-                     alive_.row_words());
+  for (uint64_t k = 0; k < rows_.layers(); ++k)
+    for (uint64_t j = 0; j < rows_.rows(); ++j) {
+      uint64_t* const row = rows_.row(rows_.y0 + j, rows_.z0 + k);
+      if (are_all_alive_)
+        std::copy_n(certain_row(j, k), rows_.row_words(), row);
+      else
+        restrict_words(row, certain_row(j, k), rows_.row_words());
+    }
 }
 
 }  // namespace msq

@@ -18,9 +18,9 @@ class StrutRows {
   /// the error of the positions of samples and struts is added here. `max_factor`: maximum factor
   /// of the radius of any strut.
   StrutRows(const RowBlock& block, const Neighbourhood& grid, const Parameter& radius,
-            double margin, double max_factor = 1)
+            double margin, double max_factor = 1, AliveRows alive = AliveRows::some)
       : radius_(radius),
-        raster_(block),
+        raster_(block, alive),
         margin_(margin + position_margin(raster_.box(), grid.origin) + block.grid->rounding()),
         reach_(raster_.box().grown(max_factor * radius.range().high + margin_)),
         bounds_(radius, margin_, *block.grid, raster_.box()) {}

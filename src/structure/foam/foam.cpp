@@ -75,13 +75,18 @@ void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
 
 void Foam::keep_rows(const RowBlock& block, const Job* job) const {
   if (method_ == FoamMethod::direct) {
-    if (keep_brick_rows(*this, block, job)) return;
+    if (keep_brick_rows(*this, block, AliveRows::some, job)) return;
     is_plain() ? foam_keep_rows_by_point(*this, block, job) : Structure::keep_rows(block, job);
   } else if (method_ == FoamMethod::point) {
     naive_keep_rows(*this, block, job);
   } else {
     Structure::keep_rows(block, job);
   }
+}
+
+void Foam::draw_rows(const RowBlock& block, const Job* job) const {
+  if (method_ == FoamMethod::direct && keep_brick_rows(*this, block, AliveRows::all, job)) return;
+  Structure::draw_rows(block, job);
 }
 
 void Foam::for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const {

@@ -38,6 +38,7 @@ class Foam final : public FoamData {
   uint64_t critical_count() const override;
   bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  void draw_rows(const RowBlock& block, const Job* job) const override;
   /// The struts of stretched cells have larger errors than contours are drawn with.
   bool has_struts() const override { return radius().is_constant() && !stretch(); }
   void for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const override;

@@ -8,9 +8,9 @@
 
 namespace msq {
 
-bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job) {
+bool keep_brick_rows(const FoamData& foam, const RowBlock& block, AliveRows alive, const Job* job) {
   const Neighbourhood& grid = foam.neighbourhood();
-  StrutRows rows(block, grid, foam.radius(), foam.graph().brick_error() * foam.unit());
+  StrutRows rows(block, grid, foam.radius(), foam.graph().brick_error() * foam.unit(), 1, alive);
   if (rows.empty()) return true;
   const double critical = foam.graph().critical_samples(
       grid.to_grid(rows.reach()).grown(foam.owner_distance()), foam.max_radius());
