@@ -20,7 +20,8 @@ Document::Document(std::string_view text, msq_context* context, const FileRules&
     builder.refuse(root, Status::argument,
                    "has no key msq_model with the version of the format, 1");
   if (whole_number(tree[version]) != document_version)
-    builder.refuse(version, Status::unsupported, "is not 1, the version that this msq reads");
+    builder.refuse(version, Status::unsupported,
+                   given(tree[version]) + "; this msq reads version 1");
   const char *title = "", *ignored = nullptr;
   reader.text("title", title);
   reader.text("$schema", ignored);

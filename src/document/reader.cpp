@@ -35,6 +35,14 @@ std::string counted(uint64_t count, const char* one, const char* many) {
 
 }  // namespace
 
+std::string given(const JsonValue& value) {
+  if (value.kind == Kind::whole) return "is " + std::to_string(value.whole);
+  if (value.kind != Kind::number) return std::string("is ") + name_of(value.kind);
+  char text[40];
+  std::snprintf(text, sizeof text, "is %.10g", value.number);
+  return text;
+}
+
 std::optional<uint64_t> whole_number(const JsonValue& value) {
   if (value.kind == Kind::whole) return value.whole;
   if (value.kind != Kind::number) return std::nullopt;
@@ -83,15 +91,8 @@ uint64_t Reader::whole_of(uint32_t value, uint64_t max) const {
   const JsonValue& found = tree_[value];
   const std::optional<uint64_t> whole = whole_number(found);
   if (!whole || *whole > max) {
-    std::string is = std::string("is ") + name_of(found.kind);
-    if (found.kind == Kind::whole) is = "is " + std::to_string(found.whole);
-    if (found.kind == Kind::number) {
-      char text[40];
-      std::snprintf(text, sizeof text, "is %.10g", found.number);
-      is = text;
-    }
     builder_.refuse(value, Status::argument,
-                    is + "; it must be a whole number from 0 to " + std::to_string(max));
+                    given(found) + "; it must be a whole number from 0 to " + std::to_string(max));
   }
   return *whole;
 }

@@ -13,6 +13,9 @@ namespace msq::document {
 /// A whole number from 0 to 2^64 - 1, as JSON Schema has it: 1, 1.0 and 1e0 are the same.
 std::optional<uint64_t> whole_number(const JsonValue& value);
 
+/// "is 2", or of what kind a value is, for messages.
+std::string given(const JsonValue& value);
+
 class Reader final : public api::DefinitionWalk {
  public:
   using DefinitionWalk::whole;

@@ -237,6 +237,7 @@ std::string ModelWriter::path(const char* file) const {
   if (options_.base.empty() || !path.starts_with(options_.base)) return path;
   size_t at = options_.base.size();
   if (!options_.base.ends_with('/') && (at >= path.size() || path[at++] != '/')) return path;
+  at = path.find_first_not_of('/', at);  // several are as one
   return at < path.size() ? path.substr(at) : path;
 }
 

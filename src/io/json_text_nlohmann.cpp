@@ -59,6 +59,9 @@ class JsonBuilder : public nlohmann::json_sax<json> {
       : tree_(tree), text_(text), limits_(limits), read_(text.data()), poll_(job) {}
 
   void parse() {
+    // The parser takes it for the end of the text.
+    if (const size_t zero = text_.find('\0'); zero != std::string_view::npos)
+      fail_at(Status::argument, zero, "the text has the character 0, which JSON does not have");
     // Events come after the last byte of what they report, and perhaps the one behind it.
     const CountedBytes begin(text_.data(), &read_), end(text_.data() + text_.size(), &read_);
     json::sax_parse(begin, end, this, json::input_format_t::json, true);

@@ -28,7 +28,8 @@ std::string_view next_word(TextCursor& text, const char* what) {
 bool read_keyword(TextCursor& text) {
   TextCursor ahead = text;
   const std::string_view word = next_word(ahead, "header");
-  if (word[0] >= '0' && word[0] <= '9') return false;
+  const bool is_count = word[0] >= '0' && word[0] <= '9' && word.find("OFF") == word.npos;
+  if (is_count) return false;
   std::string_view letters = word;
   if (letters.starts_with("ST")) letters.remove_prefix(2);
   if (letters.starts_with('C')) letters.remove_prefix(1);

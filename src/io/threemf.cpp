@@ -45,6 +45,11 @@ constexpr const char* known_extensions[] = {
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07",
 };
 
+[[noreturn]] void refuse_beams() {
+  fail(Status::unsupported,
+       "3MF: the file has beam lattices, which are not triangles; msq_beam_file_open reads both");
+}
+
 void check_extensions(const pugi::xml_node& model, bool with_beams) {
   TextCursor prefixes(model.attribute("requiredextensions").value());
   for (std::string_view prefix = prefixes.word(); !prefix.empty(); prefix = prefixes.word()) {
@@ -53,10 +58,7 @@ void check_extensions(const pugi::xml_node& model, bool with_beams) {
     bool known = false;
     for (const char* extension : known_extensions) known |= name == extension;
     const bool is_of_beams = name == beam_extension || name == ball_extension;
-    if (is_of_beams && !with_beams)
-      fail(Status::unsupported,
-           "3MF: the file has beam lattices, which are not triangles; msq_beam_file_open reads "
-           "both");
+    if (is_of_beams && !with_beams) refuse_beams();
     if (!known && !is_of_beams)
       fail(Status::unsupported, "3MF: the file requires the extension \"%s\" (%s)",
            Quoted(prefix).text, Quoted(name).text);
@@ -235,6 +237,8 @@ class Package {
       soup_.expect_triangles(mesh.triangles.size() + 1);
       mesh.triangles.push_back(triangle);
     }
+    // A file may have them and not say that they are required.
+    if (!with_beams_ && lattice_of(node)) refuse_beams();
     if (with_beams_) read_beams(node, object, part);
     // So that instances cannot multiply vertices out of proportion.
     drop_unused_vertices(mesh);

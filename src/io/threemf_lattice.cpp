@@ -213,13 +213,19 @@ std::string_view namespace_of(pugi::xml_node element, std::string_view name) {
   return {};
 }
 
-std::optional<ThreemfLattice> read_lattice(pugi::xml_node mesh, const std::vector<Vec3>& vertices,
-                                           uint64_t max_beams, const Job* job) {
+pugi::xml_node lattice_of(pugi::xml_node mesh) {
   for (const pugi::xml_node& child : mesh.children())
     if (local_name(child.name()) == "beamlattice" &&
         namespace_of(child, child.name()) == beam_extension)
-      return LatticeReader(child, vertices, max_beams, job).read();
-  return std::nullopt;
+      return child;
+  return {};
+}
+
+std::optional<ThreemfLattice> read_lattice(pugi::xml_node mesh, const std::vector<Vec3>& vertices,
+                                           uint64_t max_beams, const Job* job) {
+  const pugi::xml_node lattice = lattice_of(mesh);
+  if (!lattice) return std::nullopt;
+  return LatticeReader(lattice, vertices, max_beams, job).read();
 }
 
 }  // namespace msq

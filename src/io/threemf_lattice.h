@@ -20,6 +20,9 @@ inline constexpr const char* ball_extension =
 /// The namespace that a qualified name of an element, or of one of its attributes, has there.
 std::string_view namespace_of(pugi::xml_node element, std::string_view name);
 
+/// The element <beamlattice> of a <mesh>; null if it has none.
+pugi::xml_node lattice_of(pugi::xml_node mesh);
+
 struct ThreemfLattice {
   BeamLattice lattice;
   /// Id of the object that clips the beams.

@@ -36,9 +36,9 @@ static const struct {
     /* The document */
     {"[]", MSQ_E_ARGUMENT, "1:1: the document: |is a list; it must be an object"},
     {"{}", MSQ_E_ARGUMENT, "1:1: the document: |no key msq_model"},
-    {"{\"msq_model\": 2}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is not 1"},
-    {"{\"msq_model\": \"1\"}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is not 1"},
-    {"{\"msq_model\": 1.5}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is not 1"},
+    {"{\"msq_model\": 2}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is 2; this msq reads version 1"},
+    {"{\"msq_model\": \"1\"}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is a text; |version 1"},
+    {"{\"msq_model\": 1.5}", MSQ_E_UNSUPPORTED, "1:2: msq_model: |is 1.5; |version 1"},
     {"{\"msq_model\": 1}", MSQ_E_ARGUMENT, "1:1: the document: |neither scales nor regions"},
     {TOP("\"regions\": []"), MSQ_E_ARGUMENT, "1:1: the document: |both scales and regions"},
     {TOP("\"colour\": 1"), MSQ_E_ARGUMENT, "2:1: colour: |unknown key; the keys here are scales"},
@@ -221,9 +221,21 @@ static void documents_are_refused(void** state) {
   print_message("%d rows\n", count);
 }
 
+/* A parser may take the character 0 for the end of the text. */
+static void nothing_follows_the_character_0(void** state) {
+  static const char text[] = TOP("\"title\": \"a\"") "\0 ]]";
+  msq_document* document = (msq_document*)untouched();
+  (void)state;
+  assert_status(msq_document_from_json(context, text, sizeof text - 1, NULL, &document, NULL),
+                MSQ_E_ARGUMENT);
+  assert_message_has("2:14: the text has the character 0");
+  assert_ptr_equal(document, untouched());
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(documents_are_refused),
+      cmocka_unit_test(nothing_follows_the_character_0),
   };
   if (!MSQ_WITH_JSON) return 0; /* test_refusals_documents.c */
   context = make_context();

@@ -110,6 +110,26 @@ static void images_are_read_and_written_as_paths(void** state) {
   msq_model_release(wanted);
 }
 
+/* Several slashes are as one, also behind the base directory. */
+static void paths_below_a_directory_stay_relative(void** state) {
+  static const char* const slashes[] = {"/", "//", "///"};
+  (void)state;
+  for (int i = 0; i < 3; ++i) {
+    char path[600];
+    msq_shape* shape;
+    msq_json_def json;
+    snprintf(path, sizeof path, "%s%scube.stl", folder, slashes[i]);
+    assert_ok(msq_shape_from_file(context, path, NULL, &shape, NULL));
+    msq_model* model = make_shape_model(context, shape);
+    assert_ok(msq_json_def_init(&json, sizeof json));
+    json.base_directory = folder;
+    char* text = json_of(model, &json);
+    assert_non_null(strstr(text, "\"cube.stl\""));
+    free(text);
+    msq_model_release(model);
+  }
+}
+
 static void rows_of_files(const char* text, msq_status status, const char* words,
                           void (*change)(msq_document_def* def)) {
   msq_document_def def = in_folder();
@@ -333,6 +353,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(meshes_are_read_and_written_as_paths),
       cmocka_unit_test(images_are_read_and_written_as_paths),
+      cmocka_unit_test(paths_below_a_directory_stay_relative),
       cmocka_unit_test(files_and_limits),
       cmocka_unit_test(bad_images_are_refused),
       cmocka_unit_test(documents_are_files),

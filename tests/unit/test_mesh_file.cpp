@@ -142,6 +142,14 @@ void reads_what_assimp_reads_wrong(void**) {
            options_for(MeshFormat::obj));
   assert_int_equal(soup.triangles.size(), 2);
   assert_bounds(soup, 0, 2, {0, -0.5, 0}, {1, 1, 0.25});
+  // Homogeneous coordinates.
+  const std::string tetrahedron =
+      "4 4 0\n0 0 0 1\n4 0 0 2\n0 2 0 1\n0 0 2 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  for (const char* keyword : {"4OFF\n", "C4OFF ", "4OFF"})
+    assert_bounds(read(keyword + tetrahedron, options_for(MeshFormat::off)), 0, 4, {0, 0, 0},
+                  {2, 2, 2});
+  assert_refused("4nOFF\n3\n" + tetrahedron, MeshFormat::off, Status::unsupported,
+                 {"\"4nOFF\"", "three dimensions"});
   // OFF polygons of more than nine vertices.
   assert_int_equal(read("OFF 10 1 0\n0 0 0\n1 0 0\n2 1 0\n2 2 0\n2 3 0\n1 4 0\n0 4 0\n-1 3 0\n"
                         "-1 2 0\n-1 1 0\n10 0 1 2 3 4 5 6 7 8 9\n",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Beam lattices of 3MF files: what is read, what is refused, and files with random bytes changed.
+#include <cstring>
 #include <random>
 
 #include "mesh_file_fixtures.h"
@@ -50,6 +51,17 @@ BeamFile read_beams(const std::string& text) {
 
 void refuses(const std::string& text, Status status, const std::vector<std::string>& words) {
   assert_fails([&] { read_beams(text); }, status, words);
+}
+
+/// Also where the file does not say that beams are required: its triangles are not the part.
+void meshes_with_beams_are_no_triangles(void**) {
+  for (const char* names : {beam_names, beam_names + std::strlen("requiredextensions=\"b b2\" ")}) {
+    const std::string text = threemf_model(
+        names, "<object id=\"1\">" + lattice(plain, path) + "</object>", "<item objectid=\"1\"/>");
+    assert_refused(file_of(text), MeshFormat::threemf, Status::unsupported,
+                   {"beam lattices", "msq_beam_file_open"});
+    assert_int_equal(read_beams(text).lattices[0].beams.size(), 2);
+  }
 }
 
 void radii_and_caps_have_defaults(void**) {
@@ -311,6 +323,7 @@ void survives_mutation(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(meshes_with_beams_are_no_triangles),
       cmocka_unit_test(radii_and_caps_have_defaults),
       cmocka_unit_test(names_of_drafts_are_read),
       cmocka_unit_test(balls_have_three_modes),
