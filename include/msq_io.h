@@ -20,7 +20,8 @@
  * temporary name in the same folder, ".<name>.<letters>.part". After a failure, a cancelled call or
  * on a full disk neither file is left. Only a process that is killed can leave the temporary file.
  * Folders of a path must exist. replace 0: if a file of this name exists, it stays as it is, and
- * the call returns MSQ_E_IO. replace 1: the new file replaces it in one step.
+ * the call returns MSQ_E_IO. replace 1: the new file replaces it in one step and keeps its
+ * permissions.
  *
  * Same bytes. The bytes of a file depend on the layers and on the definitions, not on the number of
  * threads or the clock.
@@ -78,9 +79,9 @@ MSQ_IO_API msq_status msq_io_file_write(msq_io_file* file, const void* bytes, ui
  * returns too. Errors: as msq_io_file_write. */
 MSQ_IO_API int32_t msq_io_file_part(void* user, const msq_file_part* part);
 
-/** Completes the file: writes its bytes to the disk and gives it its name. If an earlier call
- * failed, returns the same failure. A file that cannot be completed is removed. Errors: ARGUMENT,
- * IO. */
+/** Completes the file: writes its bytes to the disk and gives it its name. If an earlier write
+ * failed, returns the same failure; refused arguments do not count. A file that cannot be completed
+ * is removed. Errors: ARGUMENT, IO. */
 MSQ_IO_API msq_status msq_io_file_finish(msq_io_file* file);
 
 /** Frees the object. A file that was not completed is removed. NULL: does nothing. */
@@ -164,7 +165,7 @@ typedef struct msq_io_png_def {
   int32_t level;
   /** Minimum number of digits of a layer's number in the name of its file, 1 to 20. Default 5. */
   uint32_t digits;
-  /** Beginning of the names: 1 to 64 bytes without / \ and control characters, and without a dot
+  /** Beginning of the names: 1 to 64 bytes without / \ : and control characters, and without a dot
    * at the beginning. NULL (default): "layer". */
   const char* prefix;
 } msq_io_png_def;
@@ -342,9 +343,10 @@ MSQ_IO_API msq_status msq_io_beams_def_init(msq_io_beams_def* def, size_t size);
 /** Writes struts (msq_structure_strut_graph) to a 3MF file: a beam lattice with the radii and caps
  * of their ends. Struts of length 0 become balls, for which readers need the extension for balls.
  * The unit of the model must be the millimetre. Numbers have enough digits to read the same doubles
- * again: msq_beam_file_open reads the same struts. Programs with float32 round them. replace as in
- * msq_io_writer_def. def NULL: defaults. Cost: about 4 us per strut, mostly compression; some
- * megabytes of memory. Errors: ARGUMENT (also a graph without struts), IO,
+ * again: msq_beam_file_open reads the same struts. Programs with float32 round them. Struts
+ * of radius 0 at both ends have no volume and are left out. replace as in msq_io_writer_def. def
+ * NULL: defaults. Cost: about 4 us per strut, mostly compression; some megabytes of memory. Errors:
+ * ARGUMENT (also a graph without struts, or with none that has a volume), IO,
  * LIMIT (2^31 - 1 struts, nodes, vertices or triangles), MESH (no triangles, index out of range,
  * vertex that is not finite), MEMORY. */
 MSQ_IO_API msq_status msq_io_beams_save(const msq_strut_graph* graph, const msq_io_beams_def* def,
@@ -357,8 +359,9 @@ typedef struct msq_io_slices_def {
   /** units of the contours (msq_contours_def), which coordinates are divided by. Default 1. */
   double units;
   /** Height of the layer if the slicer has only one. The slices of several layers end halfway
-   * between them, and the lowest and the highest layer are in the middle of their slices. A window
-   * of layers has the heights that it has in the whole stack. Default 0. */
+   * between them, and the lowest and the highest layer are in the middle of their slices. Layers
+   * that first_layer and layer_count of the writer select have the heights that they have in the
+   * whole stack; a slicer with a window of layers is a stack by itself. Default 0. */
   double layer_height;
 } msq_io_slices_def;
 

@@ -97,7 +97,32 @@ static void bad_places(void** state) {
   struct stat status;
   assert_int_equal(lstat(link, &status), 0);
   assert_true(S_ISLNK(status.st_mode));
+  /* Also where it leads to nothing yet. */
+  remove(path);
+  assert_ok(msq_io_file_create(link, 0, &file));
+  assert_ok(msq_io_file_write(file, "made", 4));
+  assert_ok(msq_io_file_finish(file));
+  msq_io_file_release(file);
+  assert_file_is(path, "made");
+  assert_int_equal(lstat(link, &status), 0);
+  assert_true(S_ISLNK(status.st_mode));
   remove(link);
+  remove(path);
+}
+
+static void a_replaced_file_keeps_its_mode(void** state) {
+  (void)state;
+  const char* path = in_folder("file");
+  msq_io_file* file;
+  struct stat status;
+  for (int time = 0; time < 2; ++time) {
+    assert_ok(msq_io_file_create(path, 1, &file));
+    assert_ok(msq_io_file_finish(file));
+    msq_io_file_release(file);
+    if (time == 0) assert_int_equal(chmod(path, 0600), 0);
+  }
+  assert_int_equal(stat(path, &status), 0);
+  assert_int_equal(status.st_mode & 0777, 0600);
   remove(path);
 }
 
@@ -196,7 +221,10 @@ static void full_disk(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(appears_at_the_end),
-                                     cmocka_unit_test(name_is_taken), cmocka_unit_test(parts),
-                                     cmocka_unit_test(bad_places), cmocka_unit_test(full_disk)};
+                                     cmocka_unit_test(name_is_taken),
+                                     cmocka_unit_test(parts),
+                                     cmocka_unit_test(bad_places),
+                                     cmocka_unit_test(a_replaced_file_keeps_its_mode),
+                                     cmocka_unit_test(full_disk)};
   return cmocka_run_group_tests(tests, make_folder, end_folder);
 }

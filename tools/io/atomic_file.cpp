@@ -38,12 +38,19 @@ int synchronise(std::FILE* file) {
 #endif
 }
 
-/// The path itself, or what its symbolic link leads to, so that the link stays.
+/// The path itself, or what its symbolic link leads to, which need not exist, so that the link
+/// stays.
 fs::path target_of(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_symlink(path, error)) return path;
-  const fs::path target = fs::weakly_canonical(path, error);
-  return error ? path : target;
+  constexpr int max_links = 40;
+  fs::path target = path;
+  for (int links = 0; links < max_links; ++links) {
+    std::error_code error;
+    if (!fs::is_symlink(target, error)) return target;
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) return path;
+    target = target.parent_path() / next;  // `next` itself if it is absolute
+  }
+  return path;
 }
 
 }  // namespace
@@ -120,6 +127,10 @@ void AtomicFile::commit() {
   const int closed = std::fclose(file_);
   file_ = nullptr;
   if (closed != 0) fail_write(errno);
+  // Where the disk has none, a file is replaced without.
+  std::error_code error;
+  if (const fs::file_status replaced = fs::status(path_, error); fs::exists(replaced))
+    fs::permissions(temporary_, replaced.permissions(), error);
   if (const int code = rename_to(temporary_, path_, replace_))
     fail_io("cannot give the file its name", code, text_of(path_));
   temporary_.clear();

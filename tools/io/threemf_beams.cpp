@@ -34,15 +34,18 @@ class Lattice {
     double shortest = INFINITY;
     for (uint64_t i = 0; i < report_.strut_count; ++i) {
       const double length = length_of(i);
-      if (length > 0) {
+      if (is_beam(i, length)) {
         shortest = std::min(shortest, length);
         if (first_ == UINT64_MAX) first_ = i;
-      } else {
+      } else if (!(length > 0)) {
         for (uint64_t end : {0, 1})
           if (report_.caps[2 * i + end] != MSQ_CAP_BUTT && report_.radii[2 * i + end] > 0)
             balls_.push_back(2 * i + end);
       }
     }
+    if (!has_beams() && balls_.empty())
+      fail(MSQ_E_ARGUMENT, "the graph has no volume: the radii of all %llu struts are 0",
+           static_cast<unsigned long long>(report_.strut_count));
     // A reader drops beams shorter than this; its rounding must drop none.
     min_length_ = std::isfinite(shortest) ? 0.5 * shortest : 1e-6;
   }
@@ -66,7 +69,7 @@ class Lattice {
   }
   void write_beams(uint64_t first, uint64_t count, uint64_t base, XmlText& text) const {
     for (uint64_t i = first; i < first + count; ++i) {
-      if (!(length_of(i) > 0)) continue;
+      if (!is_beam(i, length_of(i))) continue;
       const uint32_t* ends = report_.struts + 2 * i;
       const double* radii = report_.radii + 2 * i;
       const uint8_t* caps = report_.caps + 2 * i;
@@ -84,6 +87,11 @@ class Lattice {
   }
 
  private:
+  /// Struts of radius 0 at both ends have no volume, and 3MF has no such beams.
+  bool is_beam(uint64_t strut, double length) const {
+    const double* radii = report_.radii + 2 * strut;
+    return length > 0 && (radii[0] > 0 || radii[1] > 0);
+  }
   double length_of(uint64_t strut) const {
     const double* a = report_.nodes + uint64_t{3} * report_.struts[2 * strut];
     const double* b = report_.nodes + uint64_t{3} * report_.struts[2 * strut + 1];
