@@ -102,10 +102,13 @@ void warn_of_cache(Context& context) {
   if (context.cache.limit() == 0) return;  // the host wants none
   const CellCache::Counters counters = context.cache.counters();
   if (counters.unkept == 0 || hook.has_warned_of_cache.exchange(true)) return;
+  char within[64] = "";
+  if (const uint64_t memory = context.budget->limit())
+    std::snprintf(within, sizeof within, ", within a memory_limit of %llu,", number(memory));
   warn(context, MSQ_WARNING_SMALL_CACHE,
-       "%llu of %llu cells were built for one use, because the cache of %llu bytes had no room for "
-       "them",
-       number(counters.unkept), number(counters.misses), number(context.cache.limit()));
+       "%llu of %llu cells were built for one use, because the cache of %llu bytes%s had no room "
+       "for them",
+       number(counters.unkept), number(counters.misses), number(context.cache.limit()), within);
 }
 
 }  // namespace msq::api

@@ -85,6 +85,13 @@ class Signals(Case):
         self.stop(process, signal.SIGINT, 130)
         self.assertEqual(self.names(), [])
 
+    def test_while_it_waits_for_the_other_end(self):
+        fifo = self.folder / "fifo.csv"
+        os.mkfifo(fifo)
+        for arguments in (["query", BOX, fifo], ["struts", BOX, *FOAM, "-o", fifo]):
+            self.stop(self.start(*arguments), signal.SIGTERM, 143)
+        self.assertEqual(self.names(), ["fifo.csv"])
+
     def test_an_ignored_signal_stays_ignored(self):
         process = self.start(*LONG["mesh"], self.folder / "a.stl",
                              preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))

@@ -294,6 +294,14 @@ class Measures(Case):
                                     "--fraction", "0.3", "--json"))
         self.assertEqual(found["level"], waves.calibrate(0.3).parameter)
 
+    def test_struts_without_a_volume(self):
+        path = self.folder / "struts.3mf"
+        options = ["--lattice", "cubic", "--cell", "2", "--radius", "0.3", "--radius-top", "0"]
+        self.msq("struts", "box:6,4,6", *options, "-o", path)
+        radii = msq.BeamFile.open(path).lattices[0].radii
+        self.assertTrue((radii.max(axis=1) > 0).all())
+        self.assertTrue((radii == 0).any())
+
     def test_struts(self):
         foam = msq.Foam(cell_size=2, radius=0.3, seed=7, jitter=0.5, context=CONTEXT)
         for options, shape in ((FOAM, SHAPE), ([*FOAM, "--whole"], None)):

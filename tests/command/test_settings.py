@@ -53,6 +53,46 @@ class Settings(Case):
                  "-o", path)
         self.assertAlmostEqual(self.area_of_first_layer(path), 47.5, delta=0.5)
 
+    def layers(self, name, *arguments):
+        """The pixels of all layers."""
+        self.msq("slice", *arguments, "-o", self.folder / name, "-q")
+        return [[[pixel[0] for pixel in row] for row in png_pixels.read(path)[2]]
+                for path in sorted((self.folder / name).iterdir())]
+
+    def test_mirrors_replace_those_of_a_model(self):
+        def model(*orientation):
+            cylinder = {"cylinder": {"from": [0, 0, 0], "to": [8, 5, 3], "radius": 1}}
+            path = self.folder / "model.json"
+            path.write_text(json.dumps({"msq_model": 1, "scales": [{"shape": cylinder}], "slicing": {
+                "pitch": 0.25, "layer_height": 1, "orientation": orientation}}))
+            return path
+
+        up = self.layers("up", model())[1]  # y upwards
+        ways = {"none": up, "x": [row[::-1] for row in up], "y": up[::-1],
+                "xy": [row[::-1] for row in up[::-1]]}
+        self.assertEqual(len({str(rows) for rows in ways.values()}), 4)
+        for own in ((), ("mirror_x",), ("mirror_y",), ("mirror_x", "mirror_y")):
+            for axes, rows in ways.items():
+                self.assertEqual(self.layers("a", model(*own), "--mirror", axes)[1], rows, (own, axes))
+        transposed = self.layers("a", model("mirror_x", "transpose"), "--mirror", "none")[1]
+        self.assertEqual(transposed, [list(column) for column in zip(*up[::-1])][::-1])
+        # Without the option, the layers are those of the model's slicer.
+        self.assertEqual(self.layers("a", model("mirror_x"))[1], ways["xy"])
+
+    def test_a_box_replaces_what_counts_its_pixels_and_layers(self):
+        box = ["--box", "0,0,0,4,4,3"]
+        for settings in ({"resolution": [4, 4], "layer_count": 1}, {"window": {"first": [1, 1, 1]}},
+                         {"resolution": [4, 4], "window": {"first": [1, 1, 0], "count": [2, 2, 1]}}):
+            model = self.write([0, 0, 0], [4, 4, 3], slicing={
+                "pitch": 0.25, "layer_height": 1, **settings,
+                "region": {"min": [0, 0, 0], "max": [1, 1, 2]}})
+            layers = self.layers("layers", model, *box)
+            self.assertEqual(len(layers), 3)
+            for rows in layers:
+                self.assertEqual(rows, [[1] * 16] * 16)
+            for path in (self.folder / "layers").iterdir():
+                path.unlink()
+
     def test_values_below_0_are_refused(self):
         contours = {"output": "contours", "contours": {"pitch": -0.5, "tolerance": 0.1}}
         dense = {"output": "contours", "contours": {"pitch": 0.5, "tolerance": -0.1}}

@@ -126,7 +126,7 @@ constexpr Option SLICE[] = {
     {"layer-height", 'l', "MM", Value::TEXT, "", "height of a layer; required"},
     {"layers", 0, "FIRST:END", Value::TEXT, "",
      "compute layers FIRST to END - 1 only; without END, to the last one; the files have the names "
-     "and bytes that they have in a whole run"},
+     "and bytes that they have in a whole run; .sl1: a print of these layers alone"},
     {"grey", 'g', "N", Value::TEXT, "",
      "grey pixels: coverage by N x N samples, N = 2, 4, 8 or 16 (default: black and white; .sl1: "
      "4)"},

@@ -40,7 +40,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
   if (exists && access(path.c_str(), W_OK) != 0) fail(errno);
   if (exists && !S_ISREG(status.st_mode)) {
-    descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    descriptor_ = open_file(path, O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail(errno);
     return;
   }

@@ -43,7 +43,7 @@ class Input {
       name_ = "standard input";
       file_ = STDIN_FILENO;
     } else {
-      file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+      file_ = open_file(path, O_RDONLY | O_CLOEXEC);
       if (file_ < 0) fail(std::strerror(errno));
     }
     struct stat status = {};
@@ -146,7 +146,7 @@ class CsvReader : public PointReader {
     double point[3];
     for (size_t i = 0; i < 3; ++i) {
       const std::optional<double> value = to_number(parts[i]);
-      if (!value) fail(line_, "'" + std::string(parts[i]) + "' is not a finite number");
+      if (!value) fail(line_, "'" + one_line(parts[i]) + "' is not a finite number");
       point[i] = *value;
     }
     points.insert(points.end(), point, point + 3);
@@ -205,10 +205,12 @@ class NpyReader : public PointReader {
         std::memcmp(start, "\x93NUMPY", 6) != 0) {
       input_.fail("is no NPY file");
     }
-    const size_t width = start[6] == 1 ? 2 : 4;
-    if (start[6] < 1 || start[6] > 3 ||
-        input_.read(reinterpret_cast<char*>(start) + 8, width) != width) {
+    if (start[6] < 1 || start[6] > 3) {
       input_.fail("version " + std::to_string(start[6]) + " of NPY is not 1 to 3");
+    }
+    const size_t width = start[6] == 1 ? 2 : 4;
+    if (input_.read(reinterpret_cast<char*>(start) + 8, width) != width) {
+      input_.fail("ends in its heading");
     }
     size_t size = 0;
     for (size_t i = 0; i < width; ++i) size |= size_t{start[8 + i]} << (8 * i);

@@ -31,6 +31,7 @@ struct Wanted {
 };
 
 constexpr std::string_view NAMES[] = {"membership", "distance", "material", "region"};
+constexpr std::string_view PLACE[] = {"x", "y", "z"};
 constexpr std::string_view TYPES[] = {"|u1", "<f8", "<u4", "<i4"};
 
 Wanted read_wanted(const Arguments& arguments) {
@@ -53,6 +54,11 @@ Wanted read_wanted(const Arguments& arguments) {
     if (name.empty() || name != one_line(name) || name.find_first_of("'\"\\") != name.npos) {
       arguments.refuse("channels", "'" + std::string(name) + "' is no name of a channel");
     }
+    const auto is_column = [&](std::string_view column) { return column == name; };
+    const bool is_value = std::any_of(wanted.values.begin(), wanted.values.end(),
+                                      [&](Wanted::What what) { return NAMES[what] == name; });
+    if (is_value || std::any_of(std::begin(PLACE), std::end(PLACE), is_column))
+      arguments.refuse("channels", "'" + std::string(name) + "' is the name of another column");
     if (!is_utf8(name)) arguments.refuse("channels", "'" + std::string(name) + "' is not UTF-8");
     const bool is_double =
         std::find(wanted.channels.begin(), wanted.channels.end(), name) != wanted.channels.end();

@@ -96,6 +96,18 @@ void read_grey(const Arguments& arguments, msq_slicer_def& plan) {
   plan.grey_samples = static_cast<uint32_t>(samples);
 }
 
+// With y upwards in a picture, unless the model file has an orientation and no option mirrors.
+void read_mirror(const Arguments& arguments, msq_slicer_def& plan) {
+  constexpr uint32_t both = MSQ_LAYER_MIRROR_X | MSQ_LAYER_MIRROR_Y;
+  if (arguments.has("mirror")) {
+    plan.orientation &= ~both;
+    if (mirrors(arguments, 'x')) plan.orientation |= MSQ_LAYER_MIRROR_X;
+    if (!mirrors(arguments, 'y')) plan.orientation |= MSQ_LAYER_MIRROR_Y;
+  } else if (plan.orientation == 0) {
+    plan.orientation = MSQ_LAYER_MIRROR_Y;
+  }
+}
+
 // Pixels and region of all formats but SL1, whose panel decides them.
 void read_pixels(const Arguments& arguments, const Scene& scene, msq_slicer_def& plan) {
   if (arguments.has("pitch")) {
@@ -111,14 +123,13 @@ void read_pixels(const Arguments& arguments, const Scene& scene, msq_slicer_def&
     plan.has_region = 1;
     take_box(arguments, scene.model.get(), plan.region_min, plan.region_max);
   }
-  if (plan.orientation == 0) plan.orientation = MSQ_LAYER_MIRROR_Y;  // y upwards in a picture
-  if (mirrors(arguments, 'x')) plan.orientation ^= MSQ_LAYER_MIRROR_X;
-  if (mirrors(arguments, 'y')) plan.orientation ^= MSQ_LAYER_MIRROR_Y;
-}
-
-// Distance of samples along the side where they are closer.
-double pitch_of(const msq_slicer_report& plan) {
-  return std::fmin(plan.pitch[0], plan.pitch[1]);
+  if (arguments.has("box")) {
+    // What a model file counts of another region.
+    if (plan.pitch[0] > 0) plan.resolution[0] = plan.resolution[1] = 0;
+    if (plan.layer_z == nullptr) plan.layer_count = 0;
+    plan.window = {};
+  }
+  read_mirror(arguments, plan);
 }
 
 bool is_pixels(int32_t output) {
@@ -251,6 +262,14 @@ msq_slicer_report make_slicer(const Scene& scene, const msq_slicer_def& plan, Sl
   return report;
 }
 
+// Distance of samples along the side where they are closer.
+double pitch_of(const Scene& scene, const msq_slicer_def& plan) {
+  const auto smallest = [](const double(&pitch)[2]) { return std::fmin(pitch[0], pitch[1]); };
+  if (smallest(plan.pitch) > 0) return smallest(plan.pitch);
+  Slicer slicer;
+  return smallest(make_slicer(scene, plan, slicer).pitch);
+}
+
 struct Run {
   msq_io_writer* writer;
   uint64_t first;
@@ -303,11 +322,9 @@ void run_slice(const Arguments& arguments) {
     if (plan.pitch[0] == 0 && plan.resolution[0] == 0) arguments.require("pitch");
     read_pixels(arguments, scene, plan);
   }
-  Slicer slicer;
-  msq_slicer_report report = make_slicer(scene, plan, slicer);
   auto output = defaults(msq_output_def_init);
   if (takes_contours(format)) {
-    if (contours.pitch == 0 || arguments.has("pitch")) contours.pitch = pitch_of(report);
+    if (contours.pitch == 0 || arguments.has("pitch")) contours.pitch = pitch_of(scene, plan);
     if (arguments.has("box")) remove_window(contours);
     if (contours.tolerance == 0) contours.tolerance = TOLERANCE_OF_PITCH * contours.pitch;
     contours.tolerance = arguments.number("tolerance", contours.tolerance);
@@ -316,8 +333,9 @@ void run_slice(const Arguments& arguments) {
     plan.output = MSQ_LAYER_BITS;
     plan.outputs = &output;
     plan.output_count = 1;
-    report = make_slicer(scene, plan, slicer);
   }
+  Slicer slicer;
+  const msq_slicer_report report = make_slicer(scene, plan, slicer);
   uint64_t first = 0, count = 0;
   read_layers(arguments, report.layer_count, first, count);
 

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace command {
 
@@ -39,8 +40,14 @@ std::optional<T> convert(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   T value{};
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return std::nullopt;
-  return value;
+  if (end.ptr != text.data() + text.size()) return std::nullopt;
+  if (end.ec == std::errc()) return value;
+  if constexpr (std::is_floating_point_v<T>) {
+    // 0 or infinite, after rounding.
+    if (end.ec == std::errc::result_out_of_range)
+      return std::strtod(std::string(text).c_str(), nullptr);
+  }
+  return std::nullopt;
 }
 
 }  // namespace

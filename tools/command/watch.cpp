@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "watch.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
@@ -136,6 +138,14 @@ int caught_signal() {
 
 void heed_signals() {
   if (signal_caught != 0) throw Interrupted();
+}
+
+int open_file(const std::string& path, int flags) {
+  while (true) {
+    const int file = open(path.c_str(), flags);
+    if (file >= 0 || errno != EINTR) return file;
+    heed_signals();
+  }
 }
 
 void say(const std::string& text) {

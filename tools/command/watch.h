@@ -30,6 +30,10 @@ int caught_signal();
 // Throws Interrupted if there is one.
 void heed_signals();
 
+// Opens a file, with flags as of open(2). A signal ends the wait for the other end of a FIFO:
+// throws Interrupted. Returns -1, with errno, if the file does not open.
+int open_file(const std::string& path, int flags);
+
 // Prints "msq: text" as a line of its own on standard error.
 void say(const std::string& text);
 
