@@ -70,8 +70,10 @@ struct SampleGrid {
 
   /// The largest number that positions are computed from.
   double magnitude() const {
-    const Vec3 last{static_cast<double>(first[0] + nx), static_cast<double>(first[1] + ny),
-                    static_cast<double>(first[2] + nz)};
+    const auto last_of = [](uint64_t begin, uint64_t count) {
+      return static_cast<double>(begin + count - (count > 0));
+    };
+    const Vec3 last{last_of(first[0], nx), last_of(first[1], ny), last_of(first[2], nz)};
     double largest = 0;
     for (int axis = 0; axis < (heights ? 2 : 3); ++axis)
       largest = std::max(largest, std::abs(origin[axis]) + last[axis] * spacing[axis]);

@@ -294,6 +294,11 @@ class Caster {
       hit.t = search.to;
     }
     hit.point = progress_[i].origin + search.ray.direction * t;
+    if (hit.t > search.from && hit.t - search.from <= beyond_end(search) &&
+        model_.inside(search.ray.at(search.from), resolved_)) {
+      hit.t = search.from;  // found late, by rounding
+      hit.point = search.ray.at(search.from);
+    }
     hit.starts_inside = hit.t == search.from;
     if (detail_ == HitDetail::place) return;
     if (hit.starts_inside)

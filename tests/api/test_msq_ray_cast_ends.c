@@ -201,6 +201,92 @@ static void assert_agrees(const msq_model* model, const char* text, uint64_t cou
   }
 }
 
+/* Thickness rises by 30 cells per cell. */
+static void rays_through_steep_walls_end(void** state) {
+  const double low[3] = {2, 0, 0}, high[3] = {2 + 0.5 / 30, 0, 0};
+  const double zero[3] = {0, 0, 0}, four[3] = {4, 4, 4};
+  (void)state;
+  for (int density = 1; density <= 8; density += 7) {
+    msq_context* context = make_context();
+    msq_foam_def def;
+    msq_structure* foam;
+    msq_shape* box;
+    msq_field* field;
+    const msq_rays_def rays = rays_of(30);
+    assert_ok(msq_field_gradient(context, low, 0.05, high, 0.55, &field));
+    assert_ok(msq_foam_def_init(&def, sizeof def));
+    def.wall_thickness.field = field;
+    def.vent_radius.value = 0.1;
+    def.density.value = density;
+    assert_ok(msq_structure_foam(context, &def, &foam));
+    msq_field_release(field);
+    assert_ok(msq_shape_from_box(context, zero, four, &box));
+    msq_model* model = make_model(context, box, foam, NULL);
+    for (int i = 0; i < 30; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        origins[i][axis] = axis == 0 ? -1 : 0.1 + 0.13 * ((i * (axis + 6)) % 30);
+        directions[i][axis] = axis == 0 ? 1 : 0.2 * ((i * axis) % 3 - 1);
+      }
+    assert_ok(msq_ray_cast(model, &rays, NULL, hits, 30, NULL));
+    assert_agrees(model, "steep walls", 30);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
+/* From points of the boundary that are inside: a hit within the tolerance is where they begin. */
+static void rays_from_a_surface_start_inside(void** state) {
+  const double zero[3] = {0, 0, 0}, four[3] = {4, 4, 4};
+  (void)state;
+  for (int kind = 0; kind < 2; ++kind) {
+    msq_context* context = make_context();
+    msq_foam_def def;
+    msq_structure* structure;
+    msq_shape* box;
+    int count = 0, starts = 0;
+    assert_ok(msq_foam_def_init(&def, sizeof def));
+    def.radius.value = 0.1;
+    if (kind == 0)
+      assert_ok(msq_structure_foam(context, &def, &structure));
+    else
+      structure = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1);
+    assert_ok(msq_shape_from_box(context, zero, four, &box));
+    msq_model* model = make_model(context, box, structure, NULL);
+    for (int i = 0; i < many; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        origins[i][axis] = axis == 0 ? -1 : 0.1 + 0.0037 * ((i * (axis * 37 + 6)) % many);
+        directions[i][axis] = axis == 0 ? 1 : 0.2 * ((i * axis) % 3 - 1);
+      }
+    const msq_rays_def rays = rays_of(many);
+    assert_ok(msq_ray_cast(model, &rays, NULL, hits, many, NULL));
+    for (int i = 0; i < many; ++i) {
+      const double t = hits[i].t;
+      double p[3], d[3];
+      if (!(t < 100)) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        p[axis] = origins[i][axis] + t * directions[i][axis];
+        d[axis] = (i >> axis & 1 ? 1 : -1) * (0.2 + 0.1 * axis);
+      }
+      if (!is_inside(model, p[0], p[1], p[2])) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        origins[count][axis] = p[axis];
+        directions[count][axis] = d[axis];
+      }
+      ++count;
+    }
+    const msq_rays_def from_there = rays_of((uint64_t)count);
+    assert_ok(msq_ray_cast(model, &from_there, NULL, hits, (uint64_t)count, NULL));
+    for (int i = 0; i < count; ++i) {
+      starts += hits[i].starts_inside;
+      if (hits[i].t < 1e-12 && !hits[i].starts_inside)
+        fail_msg("kind %d: ray %d begins inside and is hit at %g", kind, i, hits[i].t);
+    }
+    assert_true(count > many / 4 && starts > count / 4);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
 static void rays_through_huge_values_end(void** state) {
   static const char* const texts[] = {
       "exp(57*x)-2",      "x^200-2",           "1e154*sin(x)",  "1e154*sin(x)-1e153",
@@ -356,6 +442,8 @@ static void cameras_see_from_anywhere(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rays_through_all_kinds_stop),
+      cmocka_unit_test(rays_through_steep_walls_end),
+      cmocka_unit_test(rays_from_a_surface_start_inside),
       cmocka_unit_test(rays_through_huge_values_end),
       cmocka_unit_test(directions_may_have_any_length),
       cmocka_unit_test(cameras_see_from_anywhere),

@@ -170,6 +170,8 @@ double FoamWalls::way_in_void(Vec3 p, Vec3 direction, double tolerance) const {
     const Box3 box = box_of(ray, 0, ahead);
     const double slope = thickness_.lipschitz(box);
     const bool has_slope = slope < std::numeric_limits<double>::infinity();
+    // Far ahead, steep walls would hold all cells around.
+    if (has_slope && slope > 1) ahead /= slope;
     const double thickness = (has_slope ? here : thickness_.range(box).high) / unit_;
     const VentRay vent{seeds_,
                        vents_,

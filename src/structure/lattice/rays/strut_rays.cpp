@@ -242,6 +242,7 @@ void StrutRays::enter(RaySearch& search) {
   const Ray& ray = search.ray;
   tolerance_ = structure_.ray_tolerance(ray, search.to);
   walk(ray, search.from, search.to, [&](const Part& part) {
+    check_cancelled(job_);  // thick struts: a part has thousands, and a ray few parts
     find_candidates(ray, part, true);
     double first = infinity;
     uint32_t strut = 0;

@@ -91,8 +91,23 @@ uint64_t LatticeRows::row_period(const Neighbourhood& grid, const std::array<int
 
 void LatticeRows::keep(const Job* job, const std::function<bool(Vec3)>& inside) {
   if (i0_ >= i1_) return;
+  if (!(level_margin_ <= parts_.extent)) return keep_each(job, inside);
   const uint64_t first = i0_ / bits_per_word / ColumnSets::part_words * ColumnSets::part_words;
   for (uint64_t w = first; w * bits_per_word < i1_; w += window_words) keep_window(w, job, inside);
+}
+
+/// Where rounding of positions moves the radius so far that rows tell nothing.
+void LatticeRows::keep_each(const Job* job, const std::function<bool(Vec3)>& inside) {
+  for (uint64_t k = k0_; k < k1_; ++k)
+    for (uint64_t j = j0_; j < j1_; ++j) {
+      uint64_t* const row = block_.row(j, k);
+      for (uint64_t i = i0_; i < i1_; ++i) {
+        const uint64_t bit = uint64_t{1} << (i % bits_per_word);
+        if (!(row[i / bits_per_word] & bit)) continue;
+        if (++asked_ % 256 == 0) check_cancelled(job);
+        if (!inside(grid_.at(i, j, k))) row[i / bits_per_word] &= ~bit;
+      }
+    }
 }
 
 RowTables::Line LatticeRows::line(int axis, uint64_t begin, uint64_t end) const {
@@ -365,7 +380,15 @@ void LatticeRows::set_linear(RowTask& task, const Window& window, const Classes&
   for (size_t row = 0; row < task.rows; ++row)
     of_row_[row] = gradient_.y * (grid_.y(rows.members[row]) - from.y);
   task.of_row = of_row_.data();
-  const auto radius_at = [&](double column) { return task.radius + task.slope * column; };
+  // Bounds of the radius are levels as good, and columns far apart would lead far beyond them.
+  const auto [least_of_row, most_of_row] =
+      std::minmax_element(of_row_.begin(), of_row_.begin() + static_cast<ptrdiff_t>(task.rows));
+  const double room = 2 * level_margin_ / parts_.min_factor;
+  const double lowest = radius_.range().low - *most_of_row - room;
+  const double highest = radius_.range().high - *least_of_row + room;
+  const auto radius_at = [&](double column) {
+    return std::clamp(task.radius + task.slope * column, lowest, highest);
+  };
   const auto columns = static_cast<double>(window.end - window.base);
   // Between the columns of two sections, the radius differs from that at either by half its change
   // per column. If that exceeds the margin, one level serves both.

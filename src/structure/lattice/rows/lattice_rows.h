@@ -65,6 +65,7 @@ class LatticeRows {
   RowTables::Columns make_columns(uint64_t base, uint64_t begin, uint64_t end) const;
   UnrolledColumns unroll(const std::vector<double>& x, size_t first) const;
   Classes make_classes(int axis, uint64_t begin, uint64_t end, double same) const;
+  void keep_each(const Job* job, const std::function<bool(Vec3)>& inside);
   void keep_window(size_t first_word, const Job* job, const std::function<bool(Vec3)>& inside);
   void keep_rows(const Window& window, uint64_t begin, uint64_t end, const Job* job,
                  const std::function<bool(Vec3)>& inside);

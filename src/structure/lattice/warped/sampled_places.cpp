@@ -38,13 +38,16 @@ bool SampledPlaces::Bounds::overlaps(const Box3& box) const {
   return true;
 }
 
-Box3 SampledPlaces::Bounds::box() const {
-  return {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
+Box3 SampledPlaces::Bounds::box(double unit) const {
+  return {Vec3{min[0], min[1], min[2]} * unit, Vec3{max[0], max[1], max[2]} * unit};
 }
 
 SampledPlaces::SampledPlaces(std::shared_ptr<const SampledMap> map, const UnitCell& cell,
                              std::shared_ptr<MemoryBudget> budget)
-    : map_(std::move(map)), smallest_(map_->smallest()), side_(map_->mean_size()) {
+    : map_(std::move(map)),
+      smallest_(map_->smallest()),
+      side_(map_->mean_size()),
+      unit_(std::ldexp(1.0, std::ilogb(side_))) {
   const LatticeGraph graph({cell});
   for (uint32_t n = 0; n < graph.node_count(); ++n) fractions_.push_back(graph.node(n));
   std::sort(fractions_.begin(), fractions_.end(), precedes);
@@ -105,7 +108,7 @@ void SampledPlaces::bound_cells() {
       if (!is_finite(g)) continue;
       Bounds at;
       for (int axis = 0; axis < 3; ++axis) {
-        const auto value = static_cast<float>(g[axis]);
+        const auto value = static_cast<float>(g[axis] / unit_);
         at.min[axis] = std::nextafter(value, -most);
         at.max[axis] = std::nextafter(value, most);
       }
@@ -181,10 +184,10 @@ Box3 SampledPlaces::bounds(const CellBlock& block) const {
   uint64_t at[3];
   const CellIndex first{static_cast<int32_t>(block.first[0]), static_cast<int32_t>(block.first[1]),
                         static_cast<int32_t>(block.first[2])};
-  if (block.count() != 1) return levels_.back().bounds[0].box();
+  if (block.count() != 1) return levels_.back().bounds[0].box(unit_);
   if (!index_of(first, at))
     return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  return levels_[0].at(at[0], at[1], at[2]).box();
+  return levels_[0].at(at[0], at[1], at[2]).box(unit_);
 }
 
 void SampledPlaces::visit(size_t level, const uint64_t (&block)[3], const Box3& box,
@@ -208,7 +211,7 @@ void SampledPlaces::visit(size_t level, const uint64_t (&block)[3], const Box3& 
 
 void SampledPlaces::for_each_block(const Box3& box, const TakeBlock& take) const {
   const uint64_t root[3] = {0, 0, 0};
-  visit(levels_.size() - 1, root, box, take);
+  visit(levels_.size() - 1, root, {box.min * (1 / unit_), box.max * (1 / unit_)}, take);
 }
 
 }  // namespace msq

@@ -37,11 +37,12 @@ class SampledPlaces final : public CellPlaces {
   void describe(HashInput& input) const override { map_->describe(input); }
 
  private:
+  /// In multiples of unit_.
   struct Bounds {
     float min[3], max[3];
     void add(const Bounds& other);
     bool overlaps(const Box3& box) const;
-    Box3 box() const;
+    Box3 box(double unit) const;
   };
   struct Level {
     uint64_t size[3];
@@ -60,6 +61,7 @@ class SampledPlaces final : public CellPlaces {
   std::shared_ptr<const SampledMap> map_;
   Neighbourhood smallest_;
   double side_;                  // of the lists' cubes
+  double unit_;                  // a power of two near that
   std::vector<Vec3> fractions_;  // of nodes, ascending
   CellIndex first_;              // of the tables
   Reservation reservation_;
