@@ -174,12 +174,45 @@ void rows_that_touch_are_as_defined(void**) {
   assert_true(inside > models && outside > models);
 }
 
+/// Planes whose places come from numbers so large that their rounding may be many cells.
+void planes_far_from_where_they_count_are_as_defined(void**) {
+  const Lattice lattice({{0, 0, 0}, {1, 1, 1}, {}}, bcc_unit_cell(),
+                        Parameter(Ref<const Field>(
+                            make_ref<GradientField>(Vec3{-1, -1, -1}, 0.05, Vec3{4, 5, 6}, 0.3))));
+  for (int axis = 0; axis < 3; ++axis) {
+    SampleGrid samples;
+    samples.nx = samples.ny = samples.nz = 40;
+    (axis == 0 ? samples.nx : axis == 1 ? samples.ny : samples.nz) = 1;
+    samples.origin = {0.01, 0.02, 0.03};
+    samples.spacing = {0.05, 0.05, 0.05};
+    samples.origin[axis] = -0x1p90;
+    samples.spacing[axis] = 0x1p90;
+    samples.first[static_cast<size_t>(axis)] = 1;
+    BitRows rows(samples);
+    size_t inside = 0;
+    const auto for_samples = [&](auto&& visit) {
+      for (uint64_t k = 0; k < samples.nz; ++k)
+        for (uint64_t j = 0; j < samples.ny; ++j)
+          for (uint64_t i = 0; i < samples.nx; ++i) visit(i, j, k);
+    };
+    for_samples([&](uint64_t i, uint64_t j, uint64_t k) { rows.set(i, j, k); });
+    lattice.keep_rows(rows.block(), nullptr);
+    for_samples([&](uint64_t i, uint64_t j, uint64_t k) {
+      const bool expected = lattice.inside(samples.at(i, j, k));
+      assert_int_equal(rows.get(i, j, k), expected);
+      inside += expected;
+    });
+    assert_true(inside > 0);
+  }
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(samples_are_as_defined),
       cmocka_unit_test(rows_that_touch_are_as_defined),
+      cmocka_unit_test(planes_far_from_where_they_count_are_as_defined),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
