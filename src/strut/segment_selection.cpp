@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 using D = hn::ScalableTag<float>;
-using V = hn::Vec<D>;
+using Floats = hn::Vec<D>;
 
 /// Copies of the ends of some segments, x, y, z and a number without meaning each. Vectors of x, y
 /// and z are made of these copies: to gather them from the nodes takes several times as long.
@@ -36,8 +36,8 @@ class CopiedEnds {
       std::memcpy(&ends_[4 * i], set.node(numbers[i]), 4 * sizeof(float));
     }
   }
-  HWY_INLINE void get(size_t first, V& x, V& y, V& z) const {
-    V no_meaning;
+  HWY_INLINE void get(size_t first, Floats& x, Floats& y, Floats& z) const {
+    Floats no_meaning;
     hn::LoadInterleaved4(D(), &ends_[4 * first], x, y, z, no_meaning);
   }
 
@@ -54,7 +54,7 @@ size_t select(const SegmentSet& set, const Number* a, const Number* b, const flo
   CopiedEnds of_a, of_b;
   size_t count = 0;
   const auto add = [&](size_t first, size_t lanes) HWY_ATTR {
-    V c[6];
+    Floats c[6];
     of_a.get(first, c[0], c[1], c[2]);
     of_b.get(first, c[3], c[4], c[5]);
     auto in = hn::FirstN(d, lanes);
