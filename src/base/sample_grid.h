@@ -143,13 +143,11 @@ inline void set_bits(uint64_t* row, uint64_t first, uint64_t last) {
 
 /// Sets the bits of all samples of a block, and no others.
 inline void set_all_bits(const RowBlock& block) {
-  const size_t words = block.row_words();
-  const uint64_t last = ~uint64_t{0} >> (bits_per_word - 1 - (block.grid->nx - 1) % bits_per_word);
   for (uint64_t k = block.z0; k < block.z1; ++k)
     for (uint64_t j = block.y0; j < block.y1; ++j) {
-      uint64_t* row = block.row(j, k);
-      std::fill_n(row, words - 1, ~uint64_t{0});
-      row[words - 1] = last;
+      uint64_t* const row = block.row(j, k);
+      row[block.row_words() - 1] = 0;
+      set_bits(row, 0, block.grid->nx - 1);
     }
 }
 

@@ -237,9 +237,10 @@ class Package {
       soup_.expect_triangles(mesh.triangles.size() + 1);
       mesh.triangles.push_back(triangle);
     }
-    // A file may have them and not say that they are required.
-    if (!with_beams_ && lattice_of(node)) refuse_beams();
-    if (with_beams_) read_beams(node, object, part);
+    if (with_beams_)
+      read_beams(node, object, part);
+    else if (lattice_of(node))  // also in a file that does not say that they are required
+      refuse_beams();
     // So that instances cannot multiply vertices out of proportion.
     drop_unused_vertices(mesh);
   }

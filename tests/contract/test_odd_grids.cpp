@@ -14,47 +14,11 @@ struct Model {
   msq_model* model = nullptr;
 };
 
-Model make_model(double low, double high, double cell, int32_t foam_method,
-                 const double* rotation = nullptr) {
-  Model made;
-  msq_shape* shape;
-  msq_structure* structure;
-  const double min[3] = {low, low, low}, max[3] = {high, high, high};
-  assert_ok(msq_context_create(nullptr, &made.context));
-  assert_ok(msq_shape_from_box(made.context, min, max, &shape));
-  if (foam_method) {
-    msq_foam_def def;
-    assert_ok(msq_foam_def_init(&def, sizeof def));
-    def.method = foam_method;
-    def.radius.value = 0.2 * cell;
-    for (double& size : def.grid.cell_size) size = cell;
-    assert_ok(msq_structure_foam(made.context, &def, &structure));
-  } else {
-    msq_lattice_def def;
-    assert_ok(msq_lattice_def_init(&def, sizeof def));
-    def.radius.value = 0.1 * cell;
-    for (double& size : def.grid.cell_size) size = cell;
-    if (rotation) std::memcpy(def.grid.rotation, rotation, sizeof def.grid.rotation);
-    assert_ok(msq_structure_lattice(made.context, &def, &structure));
-  }
-  msq_scale_def scales[2] = {};
-  scales[0].shape = shape;
-  scales[1].structure = structure;
-  msq_model_def def;
-  assert_ok(msq_model_def_init(&def, sizeof def));
-  def.scales = scales;
-  def.scale_count = 2;
-  assert_ok(msq_model_create(made.context, &def, &made.model));
-  msq_shape_release(shape);
-  msq_structure_release(structure);
-  return made;
-}
-
-/// In a cube of four cells.
-Model model_of(msq_context* context, msq_structure* structure, double cell) {
+/// A structure in a cube.
+Model model_of(msq_context* context, msq_structure* structure, double low, double high) {
   Model made{context, nullptr};
   msq_shape* shape;
-  const double min[3] = {0, 0, 0}, max[3] = {4 * cell, 4 * cell, 4 * cell};
+  const double min[3] = {low, low, low}, max[3] = {high, high, high};
   assert_ok(msq_shape_from_box(context, min, max, &shape));
   msq_scale_def scales[2] = {};
   scales[0].shape = shape;
@@ -67,6 +31,29 @@ Model model_of(msq_context* context, msq_structure* structure, double cell) {
   msq_shape_release(shape);
   msq_structure_release(structure);
   return made;
+}
+
+Model make_model(double low, double high, double cell, int32_t foam_method,
+                 const double* rotation = nullptr) {
+  msq_context* context;
+  msq_structure* structure;
+  assert_ok(msq_context_create(nullptr, &context));
+  if (foam_method) {
+    msq_foam_def def;
+    assert_ok(msq_foam_def_init(&def, sizeof def));
+    def.method = foam_method;
+    def.radius.value = 0.2 * cell;
+    for (double& size : def.grid.cell_size) size = cell;
+    assert_ok(msq_structure_foam(context, &def, &structure));
+  } else {
+    msq_lattice_def def;
+    assert_ok(msq_lattice_def_init(&def, sizeof def));
+    def.radius.value = 0.1 * cell;
+    for (double& size : def.grid.cell_size) size = cell;
+    if (rotation) std::memcpy(def.grid.rotation, rotation, sizeof def.grid.rotation);
+    assert_ok(msq_structure_lattice(context, &def, &structure));
+  }
+  return model_of(context, structure, low, high);
 }
 
 /// A lattice of struts or of plates whose radius or thickness is a gradient along all axes.
@@ -89,7 +76,7 @@ Model make_graded(bool has_plates) {
     assert_ok(msq_structure_lattice(context, &def, &structure));
   }
   msq_field_release(gradient);
-  return model_of(context, structure, 1);
+  return model_of(context, structure, 0, 4);
 }
 
 /// A lattice in a turned map of samples of that size.
@@ -129,7 +116,7 @@ Model make_sampled(double cell) {
   msq_structure* structure;
   assert_ok(msq_structure_lattice(context, &def, &structure));
   for (msq_field* field : fields) msq_field_release(field);
-  return model_of(context, structure, cell);
+  return model_of(context, structure, 0, 4 * cell);
 }
 
 void release(const Model& made) {

@@ -31,11 +31,11 @@ struct Wanted {
 };
 
 constexpr std::string_view NAMES[] = {"membership", "distance", "material", "region"};
-constexpr std::string_view PLACE[] = {"x", "y", "z"};
 constexpr std::string_view TYPES[] = {"|u1", "<f8", "<u4", "<i4"};
 
 Wanted read_wanted(const Arguments& arguments) {
   Wanted wanted;
+  std::vector<std::string_view> columns = {"x", "y", "z"};
   const std::string list = arguments.has("what") ? arguments.text("what") : "membership";
   for (const std::string_view name : split(list, ',')) {
     size_t i = 0;
@@ -47,6 +47,7 @@ Wanted read_wanted(const Arguments& arguments) {
     const auto what = static_cast<Wanted::What>(i);
     if (wanted.has(what)) arguments.refuse("what", "'" + std::string(name) + "' occurs twice");
     wanted.values.push_back(what);
+    columns.push_back(name);
   }
   if (!arguments.has("channels")) return wanted;
   if (!wanted.has(Wanted::MATERIAL)) arguments.refuse("channels", "needs --what material");
@@ -54,11 +55,9 @@ Wanted read_wanted(const Arguments& arguments) {
     if (name.empty() || name != one_line(name) || name.find_first_of("'\"\\") != name.npos) {
       arguments.refuse("channels", "'" + std::string(name) + "' is no name of a channel");
     }
-    const auto is_column = [&](std::string_view column) { return column == name; };
-    const bool is_value = std::any_of(wanted.values.begin(), wanted.values.end(),
-                                      [&](Wanted::What what) { return NAMES[what] == name; });
-    if (is_value || std::any_of(std::begin(PLACE), std::end(PLACE), is_column))
+    if (std::find(columns.begin(), columns.end(), name) != columns.end()) {
       arguments.refuse("channels", "'" + std::string(name) + "' is the name of another column");
+    }
     if (!is_utf8(name)) arguments.refuse("channels", "'" + std::string(name) + "' is not UTF-8");
     const bool is_double =
         std::find(wanted.channels.begin(), wanted.channels.end(), name) != wanted.channels.end();

@@ -196,10 +196,11 @@ void Lattice::keep_repeated_rows(const RowBlock& block, uint64_t end, RowFlips& 
 
 void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
   const Neighbourhood& grid = neighbourhood();
-  if (row_axes_[0] >= 0)
-    return LatticeRows(grid, row_axes_, row_struts(), radius_, block).keep(job, [this](Vec3 p) {
-      return inside(p);
-    });
+  if (row_axes_[0] >= 0) {
+    LatticeRows rows(grid, row_axes_, row_struts(), radius_, block);
+    if (!rows.keep(job, [this](Vec3 p) { return inside(p); })) Structure::keep_rows(block, job);
+    return;
+  }
   StrutRows rows(block, grid, radius_, 1e-9 * max_factor_ * radius_.range().high, max_factor_);
   if (rows.empty()) return;
   if (!rows.pays(grid, critical_samples)) return Structure::keep_rows(block, job);

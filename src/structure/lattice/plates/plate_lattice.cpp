@@ -220,9 +220,9 @@ void PlateLattice::keep_repeated_rows(const RowBlock& block, uint64_t end, RowFl
 void PlateLattice::keep_rows(const RowBlock& block, const Job* job) const {
   if (row_axes_[0] < 0) return Structure::keep_rows(block, job);
   const PlateClusters& clusters = this->clusters();
-  LatticeRows(neighbourhood(), row_axes_, row_plates(), thickness_, block).keep(job, [&](Vec3 p) {
-    return holds(clusters, p, thickness_.at(p));
-  });
+  LatticeRows rows(neighbourhood(), row_axes_, row_plates(), thickness_, block);
+  if (!rows.keep(job, [&](Vec3 p) { return holds(clusters, p, thickness_.at(p)); }))
+    Structure::keep_rows(block, job);
 }
 
 LineGraph PlateLattice::wall_lines(const WallSection& section) const {

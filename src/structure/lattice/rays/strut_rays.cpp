@@ -117,6 +117,7 @@ Interval StrutRays::radii_in(const Ray& ray, const Part& part) {
 }
 
 void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest) {
+  check_cancelled(job_);  // a part may have thousands of thick struts
   candidates_.clear();
   runs_.clear();
   lists_.find(part.cell, part.number, runs_);
@@ -242,7 +243,6 @@ void StrutRays::enter(RaySearch& search) {
   const Ray& ray = search.ray;
   tolerance_ = structure_.ray_tolerance(ray, search.to);
   walk(ray, search.from, search.to, [&](const Part& part) {
-    check_cancelled(job_);  // thick struts: a part has thousands, and a ray few parts
     find_candidates(ray, part, true);
     double first = infinity;
     uint32_t strut = 0;

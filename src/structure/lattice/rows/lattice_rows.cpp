@@ -89,25 +89,12 @@ uint64_t LatticeRows::row_period(const Neighbourhood& grid, const std::array<int
   return period_of(at.data(), at.size(), same_position(parts));
 }
 
-void LatticeRows::keep(const Job* job, const std::function<bool(Vec3)>& inside) {
-  if (i0_ >= i1_) return;
-  if (!(level_margin_ <= parts_.extent)) return keep_each(job, inside);
+bool LatticeRows::keep(const Job* job, const std::function<bool(Vec3)>& inside) {
+  if (i0_ >= i1_) return true;
+  if (!(level_margin_ <= parts_.extent)) return false;
   const uint64_t first = i0_ / bits_per_word / ColumnSets::part_words * ColumnSets::part_words;
   for (uint64_t w = first; w * bits_per_word < i1_; w += window_words) keep_window(w, job, inside);
-}
-
-/// Where rounding of positions moves the radius so far that rows tell nothing.
-void LatticeRows::keep_each(const Job* job, const std::function<bool(Vec3)>& inside) {
-  for (uint64_t k = k0_; k < k1_; ++k)
-    for (uint64_t j = j0_; j < j1_; ++j) {
-      uint64_t* const row = block_.row(j, k);
-      for (uint64_t i = i0_; i < i1_; ++i) {
-        const uint64_t bit = uint64_t{1} << (i % bits_per_word);
-        if (!(row[i / bits_per_word] & bit)) continue;
-        if (++asked_ % 256 == 0) check_cancelled(job);
-        if (!inside(grid_.at(i, j, k))) row[i / bits_per_word] &= ~bit;
-      }
-    }
+  return true;
 }
 
 RowTables::Line LatticeRows::line(int axis, uint64_t begin, uint64_t end) const {

@@ -36,8 +36,10 @@ class LatticeRows {
                              const RowParts& parts, const SampleGrid& samples, uint64_t y0,
                              uint64_t y1);
 
-  /// Clears the bits of samples that are outside; inside(p) decides the doubtful samples.
-  void keep(const Job* job, const std::function<bool(Vec3)>& inside);
+  /// Clears the bits of samples that are outside; inside(p) decides the doubtful samples. Returns
+  /// false and does nothing where rounding of positions moves a linear radius so far that rows tell
+  /// nothing.
+  bool keep(const Job* job, const std::function<bool(Vec3)>& inside);
 
  private:
   static constexpr size_t window_words = ColumnSets::max_parts * ColumnSets::part_words;
@@ -65,7 +67,6 @@ class LatticeRows {
   RowTables::Columns make_columns(uint64_t base, uint64_t begin, uint64_t end) const;
   UnrolledColumns unroll(const std::vector<double>& x, size_t first) const;
   Classes make_classes(int axis, uint64_t begin, uint64_t end, double same) const;
-  void keep_each(const Job* job, const std::function<bool(Vec3)>& inside);
   void keep_window(size_t first_word, const Job* job, const std::function<bool(Vec3)>& inside);
   void keep_rows(const Window& window, uint64_t begin, uint64_t end, const Job* job,
                  const std::function<bool(Vec3)>& inside);
