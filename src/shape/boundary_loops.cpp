@@ -71,7 +71,7 @@ double distance_to_segment(Vec3 a, Vec3 along, double length_squared) {
 }  // namespace
 
 BoundaryLoops::BoundaryLoops(const TriangleSoup& soup, const Loops& loops, double scale)
-    : scale_(scale) {
+    : scale_(scale), starts_(loops.starts) {
   vertices_.reserve(loops.vertices.size());
   for (const uint32_t v : loops.vertices) vertices_.push_back(soup.vertices[v]);
   loops_.reserve(loops.count());
@@ -164,6 +164,12 @@ BoundaryLoops::Course BoundaryLoops::course(Vec3 p, Vec3 direction, double round
   // The bound grows by (4/3)^3.
   course.bend *= 64.0 / 27 * (1 + 0x1p-40);
   return course;
+}
+
+void BoundaryLoops::expand(const Ball* balls, size_t count, double rounding,
+                           Expansion* made) const {
+  expand_loops({vertices_.data(), starts_.data(), loops_.size(), scale_, rounding}, balls, count,
+               made);
 }
 
 Vec3 BoundaryLoops::gradient(Vec3 p) const {

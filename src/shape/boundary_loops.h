@@ -36,6 +36,7 @@
 
 #include "base/triangle_soup.h"
 #include "base/vec.h"
+#include "shape/loop_expansions.h"
 #include "shape/open_edges.h"
 
 namespace msq {
@@ -74,11 +75,14 @@ class BoundaryLoops {
   };
   /// Lengths are scaled; the direction has length 1. Points of the ray are known to `rounding`.
   Course course(Vec3 p, Vec3 direction, double rounding) const;
+  /// S about the centres of balls. Points of these are known to `rounding`, scaled.
+  void expand(const Ball* balls, size_t count, double rounding, Expansion* made) const;
   /// The gradient of w except for its length.
   Vec3 gradient(Vec3 p) const;
 
   uint64_t bytes() const {
-    return vertices_.capacity() * sizeof(Vec3) + loops_.capacity() * sizeof(Loop);
+    return vertices_.capacity() * sizeof(Vec3) + loops_.capacity() * sizeof(Loop) +
+           starts_.capacity() * sizeof starts_[0];
   }
 
  private:
@@ -89,7 +93,8 @@ class BoundaryLoops {
   };
 
   double scale_;
-  std::vector<Vec3> vertices_;  // loop after loop, as the mesh has them
+  std::vector<uint64_t> starts_;  // loop i is vertices_[starts_[i]] up to [starts_[i + 1]]
+  std::vector<Vec3> vertices_;    // loop after loop, as the mesh has them
   std::vector<Loop> loops_;
 };
 

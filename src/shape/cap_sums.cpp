@@ -7,6 +7,7 @@
 #include "base/lanes3-inl.h"
 #include "base/simd.h"
 #include "shape/cap_sums.h"
+#include "shape/half_angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
@@ -22,19 +23,14 @@ HWY_INLINE Vector from_point(D d, Vec3 corner, const Vector& p) {
   return subtract<D>(set_lanes(d, corner), p);
 }
 
-/// Also of -0, as std::signbit().
-HWY_INLINE hn::Mask<D> is_negative(D d, V v) {
-  const hn::RebindToSigned<D> di;
-  return hn::MaskFromVec(hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(di, v))));
-}
-
 void sum_triangles(const CapTriangle* triangles, size_t count, double tolerance, size_t points,
                    const CapSums& sums) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
   for (size_t i = 0; i < points; i += hn::Lanes(d)) {
     const Vector p{hn::LoadU(d, sums.x + i), hn::LoadU(d, sums.y + i), hn::LoadU(d, sums.z + i)};
-    V re = one, im = zero, turns = zero, error = zero;
+    HalfAngleLanes<D> sum(d);
+    V error = zero;
     for (const CapTriangle* t = triangles; t != triangles + count; ++t) {
       const Vector a = from_point(d, t->corners[0], p), b = from_point(d, t->corners[1], p),
                    c = from_point(d, t->corners[2], p);
@@ -58,23 +54,12 @@ void sum_triangles(const CapTriangle* triangles, size_t count, double tolerance,
       const auto is_within = hn::And(hn::Lt(of_re, zero), hn::Le(height, thin));
       error = hn::IfThenElse(hn::Or(hn::Not(is_apart), is_within), one, error);
 
-      // As HalfAngles::add(). Where the size is 0 nothing is known.
-      const auto is_low = is_negative(d, of_im);
-      const auto were_alike = hn::Not(hn::Xor(is_negative(d, im), is_low));
-      const V next_im = hn::MulAdd(re, of_im, hn::Mul(im, of_re));
-      const V next_re = hn::NegMulAdd(im, of_im, hn::Mul(re, of_re));
-      const auto is_some = hn::Gt(size, zero);
-      const auto has_passed =
-          hn::And(hn::And(were_alike, is_some), hn::Xor(is_negative(d, next_im), is_low));
-      const V turn = hn::IfThenElse(is_low, hn::Set(d, -1.0), one);
-      turns = hn::Add(turns, hn::IfThenElseZero(has_passed, turn));
-      const V inverse = hn::Div(one, hn::Add(hn::Abs(next_re), hn::Abs(next_im)));
-      re = hn::IfThenElse(is_some, hn::Mul(next_re, inverse), re);
-      im = hn::IfThenElse(is_some, hn::Mul(next_im, inverse), im);
+      // Where the size is 0 nothing is known.
+      sum.add(d, of_re, of_im);
     }
-    hn::StoreU(re, d, sums.re + i);
-    hn::StoreU(im, d, sums.im + i);
-    hn::StoreU(turns, d, sums.turns + i);
+    hn::StoreU(sum.re, d, sums.re + i);
+    hn::StoreU(sum.im, d, sums.im + i);
+    hn::StoreU(sum.turns, d, sums.turns + i);
     hn::StoreU(error, d, sums.error + i);
   }
 }

@@ -398,7 +398,11 @@ Caps::Steadiness Caps::look_about(Vec3 p, double radius, double opening, int64_t
   Sum sum;
   Slope slope;
   const double clear = radius + 64 * tolerance_;
-  if (whole && meets_ball(p, clear)) return Steadiness::unsteady;
+  if (whole) {
+    bool meets = false;
+    for_each_meeting(p, clear, [&](uint32_t) { return !(meets = true); });
+    if (meets) return Steadiness::unsteady;
+  }
   const Borrowed<NearCaps> near;
   near->begin(soup_.triangles.size());
   // A smaller ball helps as much, and costs less, where much of the error is due to its size.
@@ -433,7 +437,8 @@ Caps::Steadiness Caps::look_about(Vec3 p, double radius, double opening, int64_t
   return may_be ? Steadiness::unknown : Steadiness::unsteady;
 }
 
-bool Caps::meets_ball(Vec3 p, double radius) const {
+template <class Visit>
+void Caps::for_each_meeting(Vec3 p, double radius, Visit&& visit) const {
   for (uint32_t i = 0; i < nodes_.size();) {
     const Node& node = nodes_[i];
     const Vec3 d = node.centre - p;
@@ -442,11 +447,19 @@ bool Caps::meets_ball(Vec3 p, double radius) const {
     if (is_near && node.is_leaf) {
       const TreeTriangle triangle(corner(node.triangle, 0), corner(node.triangle, 1),
                                   corner(node.triangle, 2));
-      if (triangle.distance_squared(p) <= radius * radius) return true;
+      if (triangle.distance_squared(p) <= radius * radius && !visit(node.triangle)) return;
     }
     i = is_near && !node.is_leaf ? i + 1 : node.next;
   }
-  return false;
+}
+
+void Caps::find_meeting(const Ball& ball, std::vector<std::array<Vec3, 3>>& found) const {
+  const Vec3 p = ball.centre * scale_;
+  found.clear();
+  for_each_meeting(p, ball.radius * scale_ + 64 * tolerance_, [&](uint32_t triangle) {
+    found.push_back({corner(triangle, 0) - p, corner(triangle, 1) - p, corner(triangle, 2) - p});
+    return true;
+  });
 }
 
 bool Caps::is_steady_in(Vec3 centre, double radius, int64_t* whole) const {

@@ -25,6 +25,7 @@
 #include "base/triangle_soup.h"
 #include "base/vec.h"
 #include "shape/cap_sums.h"
+#include "shape/loop_expansions.h"
 #include "shape/open_edges.h"
 #include "shape/triangle_bins.h"
 #include "shape/triangle_rows.h"
@@ -63,6 +64,9 @@ class Caps {
   /// no triangle of the mesh is crossed. If `whole` is not null, also that no cap meets the ball
   /// and that *whole is the nearest integer at all points of it.
   bool is_steady_in(Vec3 centre, double radius, int64_t* whole) const;
+  /// Lists the triangles that meet a ball, as vectors from its centre, scaled.
+  void find_meeting(const Ball& ball, std::vector<std::array<Vec3, 3>>& found) const;
+  double tolerance() const { return tolerance_; }
 
   uint64_t bytes() const;
 
@@ -108,8 +112,10 @@ class Caps {
   Slope slope_of(NearCaps& near) const;
   /// As is_steady_in(), scaled; `unknown` if smaller nodes might prove it.
   enum class Steadiness { steady, unsteady, unknown };
-  /// Whether a cap meets a ball, scaled. Costs little: no solid angle is summed.
-  bool meets_ball(Vec3 p, double radius) const;
+  /// Calls visit(triangle) for those that meet a ball, scaled, until it returns false. Costs
+  /// little: no solid angle is summed.
+  template <class Visit>
+  void for_each_meeting(Vec3 p, double radius, Visit&& visit) const;
   Steadiness look_about(Vec3 p, double radius, double opening, int64_t* whole) const;
   /// Calls far(node, vector to it, distance, lower bound on the distance from the ball about p to
   /// its caps) for nodes farther than opening times their radius plus `room`, and near(triangle)

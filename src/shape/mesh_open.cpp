@@ -2,200 +2,18 @@
 // Rows, distances and rays of open meshes with the rule `automatic`: a point is inside if the
 // generalised winding number, rounded half up, is not 0 (open_mesh.h).
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <vector>
 
 #include "base/job.h"
 #include "shape/mesh.h"
 #include "shape/triangle_rows.h"
+#include "shape/whole_parts.h"
 
 namespace msq {
 
-namespace {
-
-/// Layers that share what is proven about boxes of samples.
-constexpr uint64_t open_layers = 16;
-
-/// Samples [low, high) along each axis.
-struct Part {
-  std::array<uint64_t, 3> low, high;
-
-  uint64_t count(size_t axis) const { return high[axis] - low[axis]; }
-};
-
-/// A number for each cube of `side` samples of a part.
-template <uint64_t side>
-class Cubes {
- public:
-  void reset(const Part& part) {
-    part_ = part;
-    for (size_t axis = 0; axis < 3; ++axis) counts_[axis] = (part.count(axis) + side - 1) / side;
-    numbers_.assign(counts_[0] * counts_[1] * counts_[2], 0);
-  }
-  /// Of all cubes that begin in `p`, which begins at a cube.
-  void fill(const Part& p, int64_t number) {
-    uint64_t begin[3], end[3];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      begin[axis] = (p.low[axis] - part_.low[axis]) / side;
-      end[axis] = begin[axis] + (p.count(axis) + side - 1) / side;
-    }
-    for (uint64_t z = begin[2]; z < end[2]; ++z)
-      for (uint64_t y = begin[1]; y < end[1]; ++y) {
-        int64_t* const row = &numbers_[(z * counts_[1] + y) * counts_[0]];
-        std::fill(row + begin[0], row + end[0], number);
-      }
-  }
-  /// Once all cubes are filled: where runs of equal numbers end.
-  void find_runs() {
-    ends_.resize(numbers_.size());
-    for (size_t row_end = numbers_.size(); row_end > 0; row_end -= counts_[0])
-      for (uint64_t n = 1; n <= counts_[0]; ++n) {
-        const size_t at = row_end - n;
-        const bool goes_on = n > 1 && numbers_[at] == numbers_[at + 1];
-        ends_[at] = goes_on ? ends_[at + 1] : static_cast<uint32_t>(counts_[0] - n + 1);
-      }
-  }
-  /// That of a sample, and of those after it in the row up to `end`.
-  int64_t run(uint64_t i, uint64_t j, uint64_t k, uint64_t& end) const {
-    const uint64_t row = (k - part_.low[2]) / side * counts_[1] + (j - part_.low[1]) / side;
-    const size_t cube = row * counts_[0] + (i - part_.low[0]) / side;
-    end = std::min(part_.high[0], part_.low[0] + ends_[cube] * side);
-    return numbers_[cube];
-  }
-  /// Where a sample lies in its cube.
-  uint64_t place(uint64_t i, uint64_t j, uint64_t k) const {
-    return ((k - part_.low[2]) % side * side + (j - part_.low[1]) % side) * side +
-           (i - part_.low[0]) % side;
-  }
-
- private:
-  Part part_{};
-  std::array<uint64_t, 3> counts_{};
-  std::vector<int64_t> numbers_;
-  std::vector<uint32_t> ends_;  // in its row, the cube after the run that begins at a cube
-};
-
-/// What the winding numbers of the row rule, through mesh and caps, exceed those of the samples of
-/// some layers by: one number over a box where that is proven, else sample by sample.
-class WholeParts {
- public:
-  static constexpr int64_t not_proven = INT64_MIN;
-  /// Rows that are known at once, which bounds what is kept of the parts.
-  static constexpr uint64_t band = 64;
-  static_assert(open_layers <= band);
-
-  /// `all`: not empty. Far from caps large boxes are proven at once.
-  WholeParts(const OpenMesh& mesh, const SampleGrid& grid, const Part& all)
-      : mesh_(mesh), grid_(grid), all_(all) {
-    coarse_.reset(all);
-    divide<band>(
-        all, [&](const Part& p, int64_t whole) { coarse_.fill(p, whole); },
-        [&](const Part& p, Vec3, double) { coarse_.fill(p, not_proven); });
-    coarse_.find_runs();
-  }
-
-  /// Goes to the band that begins at a row.
-  void set(uint64_t first_row) {
-    Part part = all_;
-    part.low[1] = first_row;
-    part.high[1] = std::min(all_.high[1], first_row + band);
-    fine_.reset(part);
-    single_.clear();
-    // All layers are in one coarse cube.
-    for (uint64_t i = part.low[0], next; i < part.high[0]; i = next) {
-      const int64_t whole = coarse_.run(i, first_row, part.low[2], next);
-      Part run = part;
-      run.low[0] = i;
-      run.high[0] = next;
-      if (whole != not_proven)
-        fine_.fill(run, whole);
-      else
-        divide<side>(
-            run, [&](const Part& p, int64_t found) { fine_.fill(p, found); },
-            [&](const Part& p, Vec3 centre, double radius) { look_into(p, centre, radius); });
-    }
-    fine_.find_runs();
-  }
-
-  /// That of a sample, and of those after it up to `end`.
-  int64_t run(uint64_t i, uint64_t j, uint64_t k, uint64_t& end) const {
-    const int64_t whole = fine_.run(i, j, k, end);
-    if (whole >= first_single) return whole;
-    const int16_t* const found =
-        &single_[static_cast<size_t>(whole - not_proven)][fine_.place(i, j, k)];
-    uint64_t n = 1;
-    while (i + n < end && found[n] == *found) ++n;
-    end = i + n;
-    return *found == single_not_proven ? not_proven : *found;
-  }
-
- private:
-  static constexpr uint64_t side = 4;  // samples of a cube
-  /// Small, as a band may have many. Larger numbers are as good as not proven.
-  using Cube = std::array<int16_t, side * side * side>;
-  static constexpr int16_t single_not_proven = INT16_MIN;
-  static constexpr int64_t first_single = INT64_MIN / 2;
-
-  /// Calls whole(part, number) for parts over which there is one number, and rest(part, centre,
-  /// radius) with a ball about the others, cubes of `least` samples.
-  template <uint64_t least, class Whole, class Rest>
-  void divide(const Part& p, const Whole& whole, const Rest& rest) {
-    check_cancelled();
-    const Vec3 low = grid_.at(p.low[0], p.low[1], p.low[2]);
-    const Vec3 high = grid_.at(p.high[0] - 1, p.high[1] - 1, p.high[2] - 1);
-    const Vec3 extent = high - low, centre = (low + high) * 0.5;
-    const double radius =
-        (0.5 + 0x1p-20) * length(extent) + 0x1p-48 * (max_magnitude(low) + max_magnitude(high));
-    int64_t number;
-    if (mesh_.is_whole_about(centre, radius, number)) return whole(p, number);
-    size_t longest = 3;
-    for (size_t axis = 0; axis < 3; ++axis)
-      if (p.count(axis) > least &&
-          (longest == 3 || extent[static_cast<int>(axis)] > extent[static_cast<int>(longest)]))
-        longest = axis;
-    if (longest == 3) return rest(p, centre, radius);
-    Part lower = p, upper = p;
-    lower.high[longest] = upper.low[longest] =
-        p.low[longest] + (p.count(longest) + 2 * least - 1) / (2 * least) * least;
-    divide<least>(lower, whole, rest);
-    divide<least>(upper, whole, rest);
-  }
-
-  void look_into(const Part& p, Vec3 centre, double radius) {
-    mesh_.caps().gather(centre, radius, near_);
-    fine_.fill(p, not_proven + static_cast<int64_t>(single_.size()));
-    Cube& cube = single_.emplace_back();
-    cube.fill(single_not_proven);
-    std::array<Vec3, side * side * side> points;
-    std::array<uint64_t, side * side * side> places;
-    std::array<Caps::View, side * side * side> views;
-    size_t count = 0;
-    for (uint64_t k = p.low[2]; k < p.high[2]; ++k)
-      for (uint64_t j = p.low[1]; j < p.high[1]; ++j)
-        for (uint64_t i = p.low[0]; i < p.high[0]; ++i, ++count) {
-          points[count] = grid_.at(i, j, k);
-          places[count] = fine_.place(i, j, k);
-        }
-    mesh_.caps().find_views(points.data(), count, near_, views.data());
-    for (size_t n = 0; n < count; ++n)
-      if (views[n].margin() > 0 && std::abs(views[n].turns) < -single_not_proven - 1)
-        cube[places[n]] = static_cast<int16_t>(views[n].whole());
-  }
-
-  const OpenMesh& mesh_;
-  const SampleGrid& grid_;
-  const Part all_;
-  Cubes<band> coarse_;
-  Cubes<side> fine_;  // of the current band; below first_single, its samples are in single_
-  std::vector<Cube> single_;
-  Caps::Nearby near_;
-};
-
-}  // namespace
-
 uint64_t Mesh::layers_together() const {
-  return open_ ? open_layers : 1;
+  return open_ ? WholeParts::layers : 1;
 }
 
 void Mesh::fill_open_rows(const RowBlock& block) const {
@@ -237,9 +55,9 @@ void Mesh::fill_open_rows(const RowBlock& block) const {
     }
   };
   std::vector<RowCrossing> crossings;
-  std::vector<LayerCrossings> layers(std::min(end_layer - first_layer, open_layers));
-  for (uint64_t k0 = first_layer; k0 < end_layer; k0 += open_layers) {
-    const uint64_t k1 = std::min(end_layer, k0 + open_layers);
+  std::vector<LayerCrossings> layers(std::min(end_layer - first_layer, WholeParts::layers));
+  for (uint64_t k0 = first_layer; k0 < end_layer; k0 += WholeParts::layers) {
+    const uint64_t k1 = std::min(end_layer, k0 + WholeParts::layers);
     for (uint64_t k = k0; k < k1; ++k) {
       LayerCrossings& layer = layers[k - k0];
       crossings.clear();

@@ -49,6 +49,20 @@ bool OpenMesh::is_whole_about(Vec3 p, double distance, int64_t& whole) const {
   return caps_.is_steady_in(p, distance, &whole);
 }
 
+bool OpenMesh::find_field(const Ball& ball, const Expansion& of_loops, WholeField& field) const {
+  caps_.find_meeting(ball, field.start(ball, scale_));
+  const double beyond = static_cast<double>(caps_.count_beyond(ball.centre));
+  return field.set(beyond, of_loops, caps_.tolerance());
+}
+
+bool OpenMesh::find_whole(Vec3 p, const Expansion& of_loops, int64_t& whole) const {
+  const double nearest = std::floor(of_loops.turns + 0.5);
+  if (!of_loops.is_known || !(std::abs(of_loops.turns - nearest) + of_loops.error < 0.5))
+    return false;
+  whole = caps_.count_beyond(p) + static_cast<int64_t>(nearest);
+  return true;
+}
+
 // Let w be the winding number before rounding, W = 4 pi w, and M the distance from W to the nearer
 // of 2 pi and -2 pi at which membership changes. Within s of p the gradient of W is at most slope /
 // (1 - s / nearest)^2. Its integral reaches M at 1 / (slope / M + 1 / nearest) at the earliest.

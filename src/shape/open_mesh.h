@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "shape/boundary_loops.h"
 #include "shape/caps.h"
+#include "shape/whole_field.h"
 
 namespace msq {
 
@@ -26,6 +27,16 @@ class OpenMesh {
   /// Whether, within this distance of p, the winding number is everywhere that of the +x ray
   /// through mesh and caps minus one number, `whole`.
   bool is_whole_about(Vec3 p, double distance, int64_t& whole) const;
+  /// Whether expand() is worth its while.
+  bool knows_expansions() const { return loops_.edges() <= max_expanded_edges; }
+  void expand(const Ball* balls, size_t count, Expansion* made) const {
+    loops_.expand(balls, count, rounding_, made);
+  }
+  /// As is_whole_about(), point by point, from a known expansion about the ball. False if too
+  /// little is known.
+  bool find_field(const Ball& ball, const Expansion& of_loops, WholeField& field) const;
+  /// As is_whole_about(), at a point with an expansion about it. False if rounding decides.
+  bool find_whole(Vec3 p, const Expansion& of_loops, int64_t& whole) const;
   /// Whether the winding number is provably constant there, if no triangle is crossed.
   bool is_steady_in(Vec3 centre, double radius) const {
     return caps_.is_steady_in(centre, radius, nullptr);
@@ -55,6 +66,7 @@ class OpenMesh {
   /// Up to this number of edges, computing the bounds is worth a sum over all edges.
   static constexpr size_t max_steady_edges = 4096;
   static constexpr size_t max_way_edges = 65536;
+  static constexpr size_t max_expanded_edges = 1024;
 
   double scale_;
   double rounding_;  // of positions, scaled

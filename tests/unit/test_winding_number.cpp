@@ -220,6 +220,61 @@ size_t check_near_views(const OpenMesh& mesh, const BoundaryLoops& loops, Vec3 p
   return proven;
 }
 
+/// The bound of what an expansion is off by holds at a point of the ball.
+void check_expansion(const BoundaryLoops& loops, const Ball& ball, const Expansion& made, Vec3 q,
+                     double scale) {
+  const BoundaryLoops::Level level = loops.level(q);
+  const Vec3 d = (q - ball.centre) * scale;
+  const auto& [xx, yy, zz, xy, xz, yz] = made.second;
+  const double got = made.turns + dot(made.first, d) + xx * d.x * d.x + yy * d.y * d.y +
+                     zz * d.z * d.z + xy * d.x * d.y + xz * d.x * d.z + yz * d.y * d.z;
+  const double off = got - static_cast<double>(level.turns) - level.rest / (2 * pi);
+  if (!(std::abs(off - std::round(off)) <= made.error))  // strips add whole turns
+    fail_msg(
+        "(%.17g, %.17g, %.17g) in the ball of %g about (%.17g, %.17g, %.17g): off by %g, not %g",
+        q.x, q.y, q.z, ball.radius, ball.centre.x, ball.centre.y, ball.centre.z,
+        off - std::round(off), made.error);
+}
+
+/// Expansions about some balls: each number that their fields know is that of the definition, and
+/// their bounds hold. Returns how many points were known, of 6 a ball, but for balls beside edges.
+size_t check_fields(const OpenMesh& mesh, const BoundaryLoops& loops, Vec3 p, double scale,
+                    Random& random) {
+  constexpr size_t count = 5;
+  Ball balls[count];
+  Expansion made[count];
+  for (Ball& ball : balls) {
+    const double size = std::pow(10.0, random.between(-4, 0)) / scale;
+    ball = {p + random.direction() * (size * random.unit()), size};
+  }
+  balls[0] = {p, 0};
+  mesh.expand(balls, count, made);
+  int64_t whole, wanted = mesh.caps().count_beyond(p) + loops.turns(p);
+  if (mesh.find_whole(p, made[0], whole)) assert_int_equal(whole, wanted);
+  size_t known = 0;
+  WholeField field;
+  for (size_t i = 1; i < count; ++i) {
+    const Ball& ball = balls[i];
+    if (!made[i].is_known || !mesh.find_field(ball, made[i], field)) continue;
+    const bool is_constant = field.is_constant(wanted);
+    for (int n = 0; n < 6; ++n) {
+      const Vec3 q =
+          ball.centre + random.direction() * (ball.radius * (n % 2 ? random.unit() : 1 - 1e-9));
+      check_expansion(loops, ball, made[i], q, scale);
+      const bool is_known = field.whole_at(q, whole);
+      if (!is_known && !is_constant) continue;
+      ++known;
+      if (is_constant && is_known) assert_int_equal(whole, wanted);
+      const int64_t got = is_known ? whole : wanted;
+      if (got != mesh.caps().count_beyond(q) + loops.turns(q))
+        fail_msg("(%.17g, %.17g, %.17g) in the ball of %g about (%.17g, %.17g, %.17g): %lld", q.x,
+                 q.y, q.z, ball.radius, ball.centre.x, ball.centre.y, ball.centre.z,
+                 static_cast<long long>(got));
+    }
+  }
+  return known;
+}
+
 /// Caps say the same as the definition wherever they say anything, and their bounds hold.
 void test_caps(void** state) {
   const Row& row = *static_cast<const Row*>(*state);
@@ -227,7 +282,7 @@ void test_caps(void** state) {
   const OpenMesh mesh(parts.soup, parts.box);
   const BoundaryLoops loops(parts.soup, parts.loops, parts.scale);
   Random random(6);
-  size_t proven = 0, proven_near = 0;
+  size_t proven = 0, proven_near = 0, known_in_balls = 0;
   const size_t count = 4 * test_count(row.points);
   for (size_t i = 0; i < count; ++i) {
     const Vec3 p = some_point(random, i % 2 ? mesh.caps().soup() : parts.soup, parts.box, i);
@@ -246,9 +301,11 @@ void test_caps(void** state) {
                  view.turns, view.error, winding_number(mesh.caps().soup(), p));
     }
     check_whole_ball(mesh, loops, p, parts.scale, i % 16 == 0, random);
+    if (i % 4 == 2) known_in_balls += check_fields(mesh, loops, p, parts.scale, random);
     if (i % 8 == 1) proven_near += check_near_views(mesh, loops, p, parts.scale, random);
   }
   assert_true(proven_near > count / 8);
+  assert_true(known_in_balls > 2 * count);
   assert_true(proven > count);
 }
 

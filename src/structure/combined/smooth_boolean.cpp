@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/ball.h"
 #include "base/hash_input.h"
 #include "structure/combined/member_lines.h"
 #include "structure/common/strut_distance_bound.h"
@@ -99,25 +100,11 @@ void SmoothBoolean::keep_points(const Vec3* points, uint8_t* alive, size_t count
   }
 }
 
-namespace {
-
-/// The middle of a box, and a radius about it within which all samples of the box lie.
-struct Ball {
-  Vec3 middle;
-  double radius;
-  explicit Ball(const Box3& box)
-      : middle((box.min + box.max) * 0.5),
-        radius((0.5 + 0x1p-40) * length(box.max - box.min) +
-               0x1p-48 * (max_magnitude(box.min) + max_magnitude(box.max))) {}
-};
-
-}  // namespace
-
 BoxClass SmoothBoolean::classify(const Box3& box) const {
   const BoxClass plain = plain_->classify(box);
   if (plain == BoxClass::mixed || (plain == BoxClass::inside) == is_union()) return plain;
-  const Ball ball(box);
-  switch (fillets_of(box, ball.middle, ball.radius)) {
+  const Ball ball = ball_about(box);
+  switch (fillets_of(box, ball.centre, ball.radius)) {
     case Fillets::none:
       return plain;
     case Fillets::all:
@@ -181,8 +168,8 @@ class SmoothBoolean::Rows {
       if (samples <= few) return look_at_each(part);
       const Box3 box{grid.at(part.low[0], part.low[1], part.low[2]),
                      grid.at(part.high[0] - 1, part.high[1] - 1, part.high[2] - 1)};
-      const Ball ball(box);
-      const Fillets found = structure.fillets_of(box, ball.middle, ball.radius);
+      const Ball ball = ball_about(box);
+      const Fillets found = structure.fillets_of(box, ball.centre, ball.radius);
       if (found == Fillets::none) return;
       if (found == Fillets::all)
         return for_each_word(part, [&](uint64_t j, uint64_t k, uint64_t w, uint64_t bits) {

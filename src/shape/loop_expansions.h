@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The solid angle of the strips from open edges (boundary_loops.h) up to second-order terms, about
+// many points at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "base/ball.h"
+#include "base/vec.h"
+
+namespace msq {
+
+/// 4 pi S about the centre of a ball. Lengths are scaled.
+struct Expansion {
+  bool is_known;  ///< false where an edge is within twice the radius: too little would be known
+  double turns;   ///< S at the centre
+  double error;   ///< bound of what the terms are off by, anywhere in the ball, over 4 pi
+  Vec3 first;     ///< factors of x, y and z, over 4 pi
+  std::array<double, 6> second;  ///< of xx, yy, zz, xy, xz and yz, over 4 pi
+};
+
+struct LoopEdges {
+  const Vec3* vertices;
+  const uint64_t* starts;  ///< loop i is vertices[starts[i]] up to [starts[i + 1]]
+  size_t loops;
+  double scale;
+  double rounding;  ///< of positions in the balls, scaled
+};
+
+void expand_loops(const LoopEdges& edges, const Ball* balls, size_t count, Expansion* made);
+
+}  // namespace msq
