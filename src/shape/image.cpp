@@ -186,9 +186,7 @@ double Image::lipschitz_of(Vec3 slope) const {
 
 double Image::lipschitz(const Box3& box) const {
   const VoxelRange cells = cells_in(to_voxels(box));
-  if (are_few(cells))
-    return lipschitz_of(
-        visit([&](const auto* values) { return spread_of(values, cells); }).steepest());
+  if (are_few(cells)) return lipschitz_of(spread_over(cells).steepest());
   const Interval range = bounds_.over(cells);
   const double most = range.high - range.low;
   return std::min(lipschitz_, lipschitz_of({most, most, most}));
@@ -202,9 +200,9 @@ bool Image::slopes(const Box3& box, Box3& slopes, double& rounding) const {
     return false;
   // Within a cell, the slope along an axis is a mean of those of its edges, or of the edges of the
   // part of the cell that is in the box. Beyond the image it is 0.
-  Box3 edges = visit([&](const auto* values) {
-    return are_few(cells) ? slopes_of(values, cells, voxels) : spread_of(values, cells).slopes;
-  });
+  Box3 edges = are_few(cells)
+                   ? visit([&](const auto* values) { return slopes_of(values, cells, voxels); })
+                   : spread_over(cells).slopes;
   const Vec3 steepest = msq::max(edges.max, edges.min * -1);
   for (int axis = 0; axis < 3; ++axis) {
     const double top = static_cast<double>(size_[axis] - 1);
@@ -236,7 +234,7 @@ Interval Image::range(const Box3& box) const {
     const Interval bound = bounds_.over(cells);
     return {std::max(bound.low, range_.low), std::min(bound.high, range_.high)};
   }
-  const Spread spread = visit([&](const auto* values) { return spread_of(values, cells); });
+  const ImageSpread spread = spread_over(cells);
   // From the middle to any point of the box, the steepest edge along each axis bounds the change of
   // the function. Beyond the image the function does not change.
   const Vec3 half = voxels.extent() * 0.5;
@@ -302,39 +300,14 @@ Box3 Image::slopes_of(const T* values, const VoxelRange& cells, const Box3& voxe
   return slopes;
 }
 
-template <class T>
-Image::Spread Image::spread_of(const T* values, const VoxelRange& cells) const {
+ImageSpread Image::spread_over(const VoxelRange& cells) const {
   uint64_t count[3];
   for (int axis = 0; axis < 3; ++axis)
     count[axis] = cells.high[axis] - cells.low[axis] + (size_[axis] > 1 ? 2 : 1);
   const uint64_t dy = size_[0], dz = size_[0] * size_[1];
-  const T* corner = values + cells.low[2] * dz + cells.low[1] * dy + cells.low[0];
-  Wide<T> least = *corner, most = least;
-  Wide<T> fall[3], rise[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    fall[axis] = count[axis] > 1 ? std::numeric_limits<Wide<T>>::max() : 0;
-    rise[axis] = count[axis] > 1 ? std::numeric_limits<Wide<T>>::lowest() : 0;
-  }
-  const auto follow = [&](int axis, Wide<T> from, Wide<T> to) {
-    fall[axis] = std::min(fall[axis], to - from);
-    rise[axis] = std::max(rise[axis], to - from);
-  };
-  for (uint64_t k = 0; k < count[2]; ++k)
-    for (uint64_t j = 0; j < count[1]; ++j) {
-      const T* row = corner + k * dz + j * dy;
-      for (uint64_t i = 0; i < count[0]; ++i) {
-        const Wide<T> v = row[i];
-        least = std::min(least, v);
-        most = std::max(most, v);
-        if (i > 0) follow(0, row[i - 1], v);
-        if (j > 0) follow(1, *(row + i - dy), v);
-        if (k > 0) follow(2, *(row + i - dz), v);
-      }
-    }
-  const auto all = [](const Wide<T>(&v)[3]) {
-    return Vec3{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-  };
-  return {{static_cast<double>(least), static_cast<double>(most)}, {all(fall), all(rise)}};
+  return visit([&](const auto* values) {
+    return spread_of(values + cells.low[2] * dz + cells.low[1] * dy + cells.low[0], count, dy, dz);
+  });
 }
 
 void Image::describe(HashInput& input) const {

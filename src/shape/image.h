@@ -16,6 +16,7 @@
 #include "base/memory.h"
 #include "base/vec.h"
 #include "shape/image_bounds.h"
+#include "shape/image_spread.h"
 
 namespace msq {
 
@@ -149,15 +150,8 @@ class Image {
   static uint64_t bytes_of(Type type);
 
  private:
-  /// For the samples of some cells: their range, and along each axis the least and the greatest
-  /// difference of neighbours.
-  struct Spread {
-    Interval range;
-    Box3 slopes;
-    Vec3 steepest() const { return msq::max(slopes.max, slopes.min * -1); }
-  };
-  template <class T>
-  Spread spread_of(const T* values, const VoxelRange& cells) const;
+  /// Of the samples of some cells.
+  ImageSpread spread_over(const VoxelRange& cells) const;
   /// Slopes along each axis, in samples, of the function in the part of the cells that a box of
   /// voxel coordinates covers. Few cells only.
   template <class T>

@@ -72,6 +72,59 @@ void check_type(double low, double high) {
   }
 }
 
+/// The spread of parts of arrays against their samples one by one. Nothing past the array is read.
+template <class T>
+void check_spread(double low, double high, Random& random) {
+  for (size_t n = 0; n < test_count(300); ++n) {
+    uint64_t size[3], begin[3], count[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const uint64_t most = n % 10 == 0 && axis == 0 ? 600 : 12;
+      size[axis] = 1 + random.below(most);
+      begin[axis] = random.below(size[axis]);
+      count[axis] = 1 + random.below(size[axis] - begin[axis]);
+    }
+    std::vector<T> values(size[0] * size[1] * size[2]);
+    for (T& v : values) v = static_cast<T>(random.between(low, high));
+    const uint64_t step[3] = {1, size[0], size[0] * size[1]};
+    const T* const first = &values[begin[0] + begin[1] * step[1] + begin[2] * step[2]];
+    ImageSpread wanted{{double(*first), double(*first)}, {}};
+    for (int axis = 0; axis < 3; ++axis)
+      if (count[axis] > 1) {
+        wanted.slopes.min[axis] = std::numeric_limits<double>::infinity();
+        wanted.slopes.max[axis] = -std::numeric_limits<double>::infinity();
+      }
+    for (uint64_t k = 0; k < count[2]; ++k)
+      for (uint64_t j = 0; j < count[1]; ++j)
+        for (uint64_t i = 0; i < count[0]; ++i) {
+          const T* const at = first + i + j * step[1] + k * step[2];
+          wanted.range.low = std::min(wanted.range.low, double(*at));
+          wanted.range.high = std::max(wanted.range.high, double(*at));
+          const uint64_t place[3] = {i, j, k};
+          for (int axis = 0; axis < 3; ++axis) {
+            if (place[axis] == 0) continue;
+            const double d = double(*at) - double(*(at - step[axis]));
+            wanted.slopes.min[axis] = std::min(wanted.slopes.min[axis], d);
+            wanted.slopes.max[axis] = std::max(wanted.slopes.max[axis], d);
+          }
+        }
+    const ImageSpread got = spread_of(first, count, step[1], step[2]);
+    assert_true(got.range.low == wanted.range.low && got.range.high == wanted.range.high);
+    for (int axis = 0; axis < 3; ++axis) {
+      assert_true(got.slopes.min[axis] == wanted.slopes.min[axis]);
+      assert_true(got.slopes.max[axis] == wanted.slopes.max[axis]);
+    }
+  }
+}
+
+void test_spread(void**) {
+  Random random(12);
+  check_spread<uint8_t>(0, 256, random);
+  check_spread<int16_t>(-32768, 32768, random);
+  check_spread<uint16_t>(0, 65536, random);
+  check_spread<float>(-1, 1, random);
+  check_spread<double>(-1e100, 1e100, random);
+}
+
 void test_uint8(void**) {
   check_type<uint8_t>(0, 256);
 }
@@ -151,14 +204,11 @@ void test_memory_is_accounted(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_uint8),
-                              cmocka_unit_test(test_int16),
-                              cmocka_unit_test(test_uint16),
-                              cmocka_unit_test(test_float32),
-                              cmocka_unit_test(test_float64),
-                              cmocka_unit_test(test_samples_are_met),
-                              cmocka_unit_test(test_ranges_are_tight),
-                              cmocka_unit_test(test_strides),
-                              cmocka_unit_test(test_memory_is_accounted)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(test_spread),          cmocka_unit_test(test_uint8),
+      cmocka_unit_test(test_int16),           cmocka_unit_test(test_uint16),
+      cmocka_unit_test(test_float32),         cmocka_unit_test(test_float64),
+      cmocka_unit_test(test_samples_are_met), cmocka_unit_test(test_ranges_are_tight),
+      cmocka_unit_test(test_strides),         cmocka_unit_test(test_memory_is_accounted)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
