@@ -38,10 +38,9 @@ class Caps {
   Caps(const TriangleSoup& soup, const Loops& loops, const Box3& bounds, double scale);
 
   const TriangleSoup& soup() const { return soup_; }
-  /// The contribution of the caps to the winding number of the +x ray.
-  int64_t count_beyond(Vec3 p) const {
-    return count_crossings(soup_, columns_.at(p.y, p.z), p).beyond;
-  }
+  /// The contribution of the caps to the winding numbers of the +x ray.
+  RowWinding count(Vec3 p) const { return count_crossings(soup_, columns_.at(p.y, p.z), p); }
+  int64_t count_beyond(Vec3 p) const { return count(p).beyond; }
   /// The caps that may meet the plane.
   TriangleBins::Range at_height(double z) const { return sheets_.at(low_y_, z); }
 

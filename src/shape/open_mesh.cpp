@@ -59,8 +59,9 @@ bool OpenMesh::find_whole(Vec3 p, const Expansion& of_loops, int64_t& whole) con
   const double nearest = std::floor(of_loops.turns + 0.5);
   if (!of_loops.is_known || !(std::abs(of_loops.turns - nearest) + of_loops.error < 0.5))
     return false;
-  whole = caps_.count_beyond(p) + static_cast<int64_t>(nearest);
-  return true;
+  const RowWinding of_caps = caps_.count(p);
+  whole = of_caps.beyond + static_cast<int64_t>(nearest);
+  return of_caps.beyond == of_caps.from;
 }
 
 // Let w be the winding number before rounding, W = 4 pi w, and M the distance from W to the nearer

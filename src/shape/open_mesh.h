@@ -35,7 +35,9 @@ class OpenMesh {
   /// As is_whole_about(), point by point, from a known expansion about the ball. False if too
   /// little is known.
   bool find_field(const Ball& ball, const Expansion& of_loops, WholeField& field) const;
-  /// As is_whole_about(), at a point with an expansion about it. False if rounding decides.
+  /// As is_whole_about(), at a point with an expansion about it. False if rounding decides, and on
+  /// a cap: rows have crossings with caps, and where one is at a sample, the numbers before and
+  /// behind it count, but caps are no boundary.
   bool find_whole(Vec3 p, const Expansion& of_loops, int64_t& whole) const;
   /// Whether the winding number is provably constant there, if no triangle is crossed.
   bool is_steady_in(Vec3 centre, double radius) const {

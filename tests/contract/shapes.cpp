@@ -270,6 +270,10 @@ std::vector<ShapeRow> shape_rows() {
   std::erase_if(lidless.triangles, [&](const Triangle& t) {
     return cube.vertices[t[0]].x + cube.vertices[t[1]].x + cube.vertices[t[2]].x > 1.4;
   });
+  // Samples on its triangles and on those that close its holes.
+  TriangleSoup coarse = ball;
+  for (Vec3& v : coarse.vertices)
+    for (int axis = 0; axis < 3; ++axis) v[axis] = std::round(16 * v[axis]) / 16;
   const Soup open[] = {
       {"open icosphere", drop_triangles(ball, 9), 0.4, 0.6},
       {"open cube", drop_triangles(cube, 12), 0.7, 1},
@@ -277,6 +281,7 @@ std::vector<ShapeRow> shape_rows() {
       {"some triangles twice", some_twice, 0, 1},
       {"sheet and ball", sheet, 0.01, 0.9},
       {"ball, 20 % removed", with_holes(ball, 0.2, 1), 0.4, 0.6},
+      {"ball on the grid, 20 % removed", with_holes(coarse, 0.2, 2), 0.3, 0.7},
       {"inside out torus, 5 % removed", inside_out(with_holes(ring, 0.05, 1)), 0.2, 0.8},
       {"crossing pair, 5 % removed", with_holes(pair, 0.05, 1), 0.2, 0.9},
       {"loose triangles", torn(ball, 0.005, 1), 0.4, 0.6},
