@@ -2,24 +2,14 @@
 """Objects of msq as Python objects: released with the last Python reference, or by close()."""
 from __future__ import annotations
 
-import atexit
 import ctypes
 from typing import Any, ClassVar, Optional, Sequence, Type, TypeVar
 
 from . import _abi
+from ._ending import calls
 from ._given import Given
 from ._library import lib
 from ._signals import held
-
-
-_is_ending = False
-
-
-@atexit.register
-def _end() -> None:
-    """From here on nothing is released: what C would call is taken apart."""
-    global _is_ending
-    _is_ending = True
 
 
 class Reference:
@@ -30,14 +20,18 @@ class Reference:
     """
 
     __slots__ = ("_as_parameter_", "_release")
+    _calls: ClassVar[Any] = calls
 
     def __init__(self, pointer: Any, release: Any) -> None:
         self._as_parameter_ = pointer
         self._release = release
 
     def __del__(self) -> None:
-        if not _is_ending and hasattr(self, "_release"):  # not if __init__ did not run
-            self._release(self._as_parameter_)
+        if hasattr(self, "_release") and self._calls.begin(self):  # not if __init__ did not run
+            try:
+                self._release(self._as_parameter_)
+            finally:
+                self._calls.end(self)
 
 
 SelfT = TypeVar("SelfT", bound="Handle")

@@ -10,7 +10,7 @@ import threading
 from typing import Any, Callable, List, Optional, TypeVar
 
 from ._library import lib
-from ._signals import held, may_call_back
+from ._signals import HeldSignals, held, may_call_back
 from .context import Job, job_reference
 
 
@@ -75,15 +75,21 @@ class _Request:
 
 
 def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool = True,
-                  relay: Optional[Relay] = None) -> None:
-    """Runs call(job), so that an interrupt cancels it.
+                  relay: Optional[Relay] = None, calls_back: bool = False) -> None:
+    """Runs call(job), so that an interrupt cancels it, and the end of the program if it may call back.
 
     Where it is worth it, the main thread has another one make the call, and waits. After a second
     interrupt it no longer does: the call ends in its own time, and holds what it writes to. relay:
-    runs functions of the call meanwhile; it makes the call long.
+    runs functions of the call meanwhile; it makes the call long. calls_back: the call itself is given
+    a function of Python.
     """
     if threading.current_thread() is not threading.main_thread():
-        call(job_reference(job))
+        if not calls_back and not may_call_back():
+            call(job_reference(job))
+            return
+        reference = job_reference(Job() if job is None else job)
+        with HeldSignals(reference):
+            call(reference)
         return
     if not is_long and not may_call_back():
         call(job_reference(job))

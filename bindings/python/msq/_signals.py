@@ -13,6 +13,7 @@ import signal
 import threading
 from typing import Any, Callable, ContextManager, Dict, Optional
 
+from ._ending import Running
 from ._library import lib
 
 
@@ -23,20 +24,22 @@ _NUMBERS = [getattr(signal, name) for name in
 
 
 class HeldSignals:
-    """Within `with`, on the main thread, what a handler of signals raises is held: to its end, or
-    to the next callback that asks for it.
+    """Within `with`, a call that may call back (Running). On the main thread, what a handler of signals
+    raises is held: to its end, or to the next callback that asks for it.
 
     A callback calls raise_held first and then sets `allowed`, inside its `try`, and unsets it
-    there: between the two handlers raise as ever. job: cancelled when something is held.
+    there: between the two handlers raise as ever. job: of the call; cancels: when something is held.
     """
 
-    def __init__(self, job: Any = None) -> None:
+    def __init__(self, job: Any = None, cancels: bool = True) -> None:
         self.allowed = False
+        self._running = Running(job)
         self._held: Optional[BaseException] = None
-        self._job = job
+        self._job = job if cancels else None
         self._handlers: Dict[int, Callable[[int, Any], Any]] = {}
 
     def __enter__(self) -> HeldSignals:
+        self._running.__enter__()
         if threading.current_thread() is threading.main_thread():
             for number in _NUMBERS:
                 handler = signal.getsignal(number)
@@ -46,6 +49,7 @@ class HeldSignals:
         return self
 
     def __exit__(self, *_exception: Any) -> None:
+        self._running.__exit__()
         for number, handler in self._handlers.items():
             if signal.getsignal(number) == self._handle:  # else the callback has set its own
                 signal.signal(number, handler)
@@ -71,7 +75,7 @@ class HeldSignals:
                 lib.msq_job_cancel(self._job)
 
 
-# Whether msq may call functions of Python in any call, and not only in Slicer.run.
+# Whether msq may call functions of Python in any call, and not only in those that take one.
 _calls_back = False
 
 

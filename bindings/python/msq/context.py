@@ -15,6 +15,7 @@ from . import _abi
 from ._given import parameter, remembers
 from ._handle import Handle
 from ._library import constant, defaults, lib, report
+from ._signals import expect_callbacks
 
 RecordT = TypeVar("RecordT")
 
@@ -148,6 +149,7 @@ class Context(Handle):
                 raise TypeError(f"on_warning is a {type(on_warning).__name__}; it must be a function")
             number = next(_numbers)
             _on_warning[number] = on_warning
+            expect_callbacks()
             definition.warning = _take_warning
             definition.warning_user = number
             definition.warning_release = _forget_warning

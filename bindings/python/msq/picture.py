@@ -136,7 +136,7 @@ def render(model: Model, camera: Optional[Camera], definition: _abi.msq_render_d
     relay = Relay() if threading.current_thread() is threading.main_thread() else None
     take_pass = _abi.msq_render_fn(_trampoline(on_pass, picture, relay))
     try:
-        interruptible(lambda work: call(work, take_pass), job, relay=relay)
+        interruptible(lambda work: call(work, take_pass), job, relay=relay, calls_back=True)
     except HostError as error:
         if error.code != _STOPPED:
             raise

@@ -81,7 +81,7 @@ def inspect(slicer: Any, kinds: Sequence[str], has_plate: bool, width: float, mi
         lib.msq_printability(reference, ctypes.byref(definition), function, None,
                              ctypes.byref(filled), work)
 
-    interruptible(call, job)
+    interruptible(call, job, calls_back=True)
     found = np.concatenate(batches) if batches else np.empty(0, _FINDING)
     return Printability(findings=found,
                         **{field.name: getattr(filled, field.name)

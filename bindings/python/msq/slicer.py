@@ -407,7 +407,7 @@ class Slicer(Handle):
                 self._run(lambda layer: slab.append(layer.copy()), first, min(deep, last - first),
                           work, HeldSignals())
 
-            interruptible(call, job)
+            interruptible(call, job, calls_back=True)
             slab.reverse()
             while slab:
                 yield slab.pop()
@@ -422,8 +422,9 @@ class Slicer(Handle):
         returning False, and run returns False then; exceptions stop it too, and are raised here.
         """
         first, last = self._range(first, count)
-        with HeldSignals() as signals:
-            return self._run(take, first, last - first, job_reference(job), signals)
+        reference = job_reference(Job() if job is None else job)
+        with HeldSignals(reference, cancels=False) as signals:
+            return self._run(take, first, last - first, reference, signals)
 
     def _run(self, take: Callable[[Layer], Any], first: int, count: int, job: Any,
              signals: HeldSignals) -> bool:

@@ -87,7 +87,7 @@ def mesh(model: Any, definition: _abi.msq_surface_def, job: Optional[Job]) -> Me
 
     reference, function = model._ref, _abi.msq_surface_fn(take)
     interruptible(lambda work: lib.msq_surface_mesh(reference, ctypes.byref(definition), function,
-                                                    None, work), job)
+                                                    None, work), job, calls_back=True)
     if not parts:
         return Mesh(np.empty((0, 3)), np.empty((0, 3), np.float32), np.empty((0, 3), np.uint32))
     vertices, normals, triangles = (parts[0] if len(parts) == 1 else
@@ -127,6 +127,6 @@ def _write(model: Any, file: Any, format: int, definition: _abi.msq_surface_def,
 
     reference, function = model._ref, _abi.msq_file_fn(take)
     interruptible(lambda work: lib.msq_surface_file(reference, ctypes.byref(definition), format,
-                                                    function, None, work), job)
+                                                    function, None, work), job, calls_back=True)
     if format == _abi.MSQ_SURFACE_PLY:
         file.seek(0, os.SEEK_END)

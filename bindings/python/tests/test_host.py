@@ -331,6 +331,53 @@ class Lifetimes(unittest.TestCase):
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (0, "True\n", ""))
 
+    def test_a_program_ends_while_threads_call_back(self):
+        calls = {
+            "run": "model.slicer(layer_height=.05, pitch=.01).run(lambda layer: began.set())",
+            "layers": "began.set(), *model.slicer(layer_height=.05, pitch=.01)",
+            "mesh": "began.set(), model.mesh(.05)",
+            "render": "model.render(width=500, height=500, first_step=16,"
+                      " on_pass=lambda picture, step: began.set())",
+            "host": "msq.Model(box, host(False)).contains(points)",
+            "concurrent": "msq.Model(box, host(True)).contains(points)",
+            "point": "began.set(), msq.Model(box, host(False)).contains(points[0])",
+        }
+        program = ("import msq, numpy, threading\n"
+                   "began = threading.Event()\n"
+                   "context = msq.Context(threads=2, beyond_cores=True)\n"
+                   "box = msq.Shape.box((0, 0, 0), (10, 10, 10), context=context)\n"
+                   "model = msq.Model(box, msq.Foam(radius=.1, context=context))\n"
+                   "points = numpy.random.rand(200000, 3) * 10\n"
+                   "def inside(points):\n"
+                   "    began.set()\n"
+                   "    return numpy.linalg.norm(points.positions - .5, axis=1) < .4\n"
+                   "def host(concurrent):\n"
+                   "    return msq.HostStructure(inside, concurrent=concurrent, context=context)\n"
+                   "def work():\n"
+                   "    while True: {}\n"
+                   "threading.Thread(target=work, daemon=True).start()\n"
+                   "began.wait()\n"
+                   "print('end')")
+        for name, call in calls.items():
+            with self.subTest(name):
+                ended = subprocess.run([sys.executable, "-B", "-c", program.format(call)], text=True,
+                                       check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                self.assertEqual((ended.returncode, ended.stdout), (0, "end\n"), ended.stderr)
+
+    def test_calls_at_the_end_of_a_program(self):
+        program = ("import atexit\n"
+                   "def last():\n"
+                   "    try: model.contains((2, 2, 2))\n"
+                   "    except msq.CancelledError as error: print(error)\n"
+                   "atexit.register(last)\n"
+                   "import msq\n"
+                   "atexit.register(lambda: print(model.contains((2, 2, 2))))\n"
+                   "model = msq.Model(msq.Shape.host(lambda p: p[:, 0] > 1, (0, 0, 0), (8, 6, 4)))")
+        ended = subprocess.run([sys.executable, "-B", "-c", program], text=True, check=False,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        self.assertRegex(ended.stdout, "^True\nthe program ends, ")
+
 
 class Parts(unittest.TestCase):
     """Skins and unit cells."""
