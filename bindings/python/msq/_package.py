@@ -36,6 +36,7 @@ _IDENTIFIER = re.compile(r"[0-9]{1,10}")
 MOST_ELEMENTS = 500_000  #: besides vertices and triangles
 MOST_DEPTH = 64
 MOST_ITEMS = 10_000  #: placed objects
+MOST_TAG_BYTES = 1 << 20  #: of a tag or comment: the parser looks through one anew with each chunk
 _CHUNK = 1 << 16
 _IDENTITY = np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]])
 
@@ -113,12 +114,18 @@ class _Xml:
         self._parser.EndElementHandler = self._end
         self._parser.StartNamespaceDeclHandler = self._space
         self._parser.StartDoctypeDeclHandler = self._document_type
+        self._size = 0  # bytes fed
 
     def feed(self, data: bytes, is_last: bool = False) -> None:
+        self._size += len(data)
         try:
             self._parser.Parse(data, is_last)
         except (expat.ExpatError, LookupError) as error:  # of the second kind: unknown encodings
             raise FileError(None, f"malformed XML: {error}") from None
+        unread = self._size - self._parser.CurrentByteIndex
+        if unread > MOST_TAG_BYTES:
+            raise LimitError(f"the XML has a tag or comment of {unread} bytes or more; the limit is "
+                             f"{MOST_TAG_BYTES}")
 
     def _document_type(self, *_: Any) -> None:
         raise FileError(None, "the XML declares a document type; 3MF allows none")
