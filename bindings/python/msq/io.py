@@ -314,7 +314,7 @@ def save_mesh(model: Model, path: Path, pitch: float, *, format: Optional[str] =
               box: Optional[Box] = None, length_scale: float = 0.0, slab_layers: int = 0,
               replace: bool = False, job: Optional[Job] = None) -> None:
     """Writes a preview mesh as binary STL or PLY, as the end of the path says or format. Arguments as
-    of Model.mesh. Unlike Model.save_mesh it leaves no part of a file."""
+    of Model.mesh. Unlike Model.save_mesh it refuses an existing file, unless replace=True."""
     name = c_path(path)
     if format is None:
         format = os.path.splitext(os.fspath(path))[1][1:].lower()

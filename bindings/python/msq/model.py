@@ -378,7 +378,8 @@ class Model(Handle):
                   job: Optional[Job] = None) -> None:
         """Writes the mesh of mesh() to a path or a binary file, without holding it whole.
 
-        format: `stl` or `ply`; None: by the path's ending. A file for `ply` must be able to seek.
+        format: `stl` or `ply`; None: by the path's ending. A file for `ply` must be able to seek. The
+        file of a path gets its name when it is complete, and replaces an existing one then.
         """
         surface.save_mesh(self, file, format,
                           surface.definition_of(pitch, box, length_scale, slab_layers), job)

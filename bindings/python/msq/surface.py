@@ -2,9 +2,13 @@
 """The boundary of a model as triangles."""
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import os
-from typing import Any, BinaryIO, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
+import secrets
+import shutil
+from typing import (Any, BinaryIO, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple,
+                    Union)
 
 import numpy as np
 
@@ -105,10 +109,38 @@ def save_mesh(model: Any, file: Union[str, "os.PathLike[str]", BinaryIO], format
     if format not in _FORMATS:
         raise ValueError(f"format is {format!r}; it must be 'stl' or 'ply'")
     if isinstance(file, (str, os.PathLike)):
-        with open(file, "wb") as opened:
+        with _replacing(os.fsdecode(file)) as opened:
             _write(model, opened, _FORMATS[format], definition, job)
     else:
         _write(model, file, _FORMATS[format], definition, job)
+
+
+@contextlib.contextmanager
+def _replacing(path: str) -> Iterator[BinaryIO]:
+    """A file that gets its name when it is complete, and the permissions of the file that it replaces.
+    A failure leaves that file as it is. What is no plain file is written to where it is."""
+    target = os.path.realpath(path)  # so that a link stays
+    if os.path.exists(target) and not os.path.isfile(target):
+        with open(path, "wb") as file:
+            yield file
+        return
+    folder, name = os.path.split(target)
+    temporary = os.path.join(folder, f".{name[:40]}.{secrets.token_hex(4)}.part")
+    try:
+        opened = open(temporary, "xb")
+    except OSError as error:
+        error.filename = path
+        raise
+    try:
+        with opened:
+            yield opened
+        with contextlib.suppress(OSError):  # there is none, or the disk has no permissions
+            shutil.copymode(target, temporary)
+        os.replace(temporary, target)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.remove(temporary)
+        raise
 
 
 def _write(model: Any, file: Any, format: int, definition: _abi.msq_surface_def,

@@ -2,6 +2,7 @@
 """Preview meshes as arrays and files."""
 import io
 import os
+import pathlib
 import tempfile
 import unittest
 
@@ -54,6 +55,43 @@ class SurfaceTest(unittest.TestCase):
         stl = io.BytesIO()
         self.ball.save_mesh(stl, 0.25, format="stl", slab_layers=1)
         self.assertEqual(len(stl.getvalue()), 84 + 50 * len(mesh.triangles))
+
+    def test_failures_leave_files_as_they_are(self):
+        def fails(points):
+            if points.points[:, 2].max() > 3:
+                raise OSError("in the middle")
+            return np.ones(len(points.points), bool)
+
+        broken = msq.Model(msq.Shape.sphere((1, 2, 3), 2), msq.HostStructure(fails))
+        job = msq.Job()
+        job.cancel()
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "ball.stl")
+            for has_file in (False, True):
+                if has_file:
+                    path.write_text("precious")
+                for error, call in ((msq.ArgumentError, lambda: self.ball.save_mesh(path, -1)),
+                                    (msq.CancelledError, lambda: self.ball.save_mesh(path, 1, job=job)),
+                                    (OSError, lambda: broken.save_mesh(path, 0.25, slab_layers=1))):
+                    with self.assertRaises(error):
+                        call()
+                    self.assertEqual(os.listdir(folder), ["ball.stl"] if has_file else [])
+                    self.assertTrue(not has_file or path.read_text() == "precious")
+            path.chmod(0o640)
+            link = pathlib.Path(folder, "link.stl")
+            link.symlink_to(path.name)
+            self.ball.save_mesh(link, 1)
+            self.assertTrue(link.is_symlink())
+            self.assertEqual(path.stat().st_mode & 0o777, 0o640)
+            self.assertTrue(msq.Shape.from_file(path).info.closed)
+            new = pathlib.Path(folder, "new.stl")
+            self.ball.save_mesh(new, 1)
+            pathlib.Path(folder, "by_open").touch()
+            self.assertEqual(new.stat().st_mode, pathlib.Path(folder, "by_open").stat().st_mode)
+            with self.assertRaises(FileNotFoundError) as caught:
+                self.ball.save_mesh(pathlib.Path(folder, "none", "a.stl"), 1)
+            self.assertEqual(caught.exception.filename, os.path.join(folder, "none", "a.stl"))
+        self.ball.save_mesh("/dev/null", 1, format="stl")
 
     def test_wrong_arguments(self):
         with self.assertRaises(msq.ArgumentError):
