@@ -43,6 +43,7 @@ class Handle:
     _kind: ClassVar[str] = ""  # as in msq_<kind>_release
     _reference: Optional[Reference] = None
     _given: Optional[Given] = None
+    _kept_context: Any = None
 
     @classmethod
     def _create(cls, create: Any, *arguments: Any) -> Reference:
@@ -92,6 +93,7 @@ class Handle:
         """Drops this object's reference. What was built from it, and calls on it, go on."""
         self._reference = None
         self._given = None
+        self._kept_context = None
 
     def __enter__(self: SelfT) -> SelfT:
         return self

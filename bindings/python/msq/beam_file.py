@@ -13,7 +13,7 @@ from ._arrays import view
 from ._handle import Handle, Reference
 from ._interrupt import build
 from ._library import constant, constant_name, defaults, lib
-from .context import Context, Job, c_path, context_of
+from .context import Context, Job, MadeIn, c_path, context_of
 from .errors import naming
 from .shape import Shape
 from .structure import Beams
@@ -70,7 +70,7 @@ class BeamFile(Handle):
     """
 
     _kind = "beam_file"
-    context: Context
+    context = MadeIn()
 
     def __init__(self) -> None:
         raise TypeError("files of beams are opened by BeamFile.open and BeamFile.from_memory")

@@ -2,6 +2,7 @@
 """Contexts, jobs, and what the library says of itself."""
 from __future__ import annotations
 
+import copy
 import ctypes
 import dataclasses
 import itertools
@@ -9,7 +10,7 @@ import numbers
 import operator
 import os
 import threading
-from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar, Union
+from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar, Union, overload
 
 from . import _abi
 from ._given import parameter, remembers
@@ -173,6 +174,30 @@ class Context(Handle):
     def clear_cache(self) -> None:
         """Drops all cached cells. Counters stay."""
         lib.msq_cache_clear(self._ref)
+
+
+class MadeIn:
+    """The context that the object was made in."""
+
+    # The object keeps a handle of its own, which stands for the one given once that is closed.
+
+    @overload
+    def __get__(self, subject: None, owner: Any) -> MadeIn: ...
+
+    @overload
+    def __get__(self, subject: object, owner: Any) -> Context: ...
+
+    def __get__(self, subject: Any, _owner: Any) -> Union[MadeIn, Context]:
+        if subject is None:
+            return self
+        given: Context = subject._context
+        return subject._kept_context or given if given.closed else given
+
+    def __set__(self, subject: Any, context: Context) -> None:
+        if "_context" in vars(subject):
+            raise AttributeError(f"context cannot be set: a {type(subject).__name__} is immutable; make "
+                                 "another one")
+        subject._context, subject._kept_context = context, copy.copy(context)
 
 
 _default: Optional[Context] = None

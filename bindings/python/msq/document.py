@@ -11,7 +11,7 @@ from ._handle import Handle
 from ._interrupt import build
 from ._library import constant, defaults, lib, report
 from .camera import Camera
-from .context import Context, Job, context_of, c_path, unsigned
+from .context import Context, Job, MadeIn, context_of, c_path, unsigned
 from .errors import naming
 from .model import Model
 from .picture import Picture
@@ -29,6 +29,7 @@ class Document(Handle):
     """
 
     _kind = "document"
+    context = MadeIn()
 
     @classmethod
     def from_json(cls, text: Union[str, bytes], *, base_directory: Optional[Path] = None,

@@ -16,7 +16,7 @@ from ._handle import Handle, hash_of, lend
 from ._host import HashKey, create
 from ._interrupt import build, interruptible
 from ._library import defaults, lib
-from .context import Context, Job, context_of, doubles, c_text, triple
+from .context import Context, Job, MadeIn, context_of, doubles, c_text, triple
 from .points import definition_of
 from .shape import Shape
 
@@ -25,7 +25,7 @@ class Field(Handle):
     """A number at every point of space, of known range. Made by the class methods."""
 
     _kind = "field"
-    context: Context
+    context = MadeIn()
 
     def __init__(self) -> None:
         raise TypeError("fields are made by Field.gradient and the like")

@@ -9,7 +9,7 @@ from . import _abi
 from ._given import remembers
 from ._handle import Handle, hash_of, lend
 from ._library import defaults, lib
-from .context import Context, context_of, c_text, unsigned
+from .context import Context, MadeIn, context_of, c_text, unsigned
 from .field import Param, set_param
 
 
@@ -22,7 +22,7 @@ class Material(Handle):
 
     _kind = "material"
     id: int  #: what Model.material answers
-    context: Context
+    context = MadeIn()
 
     @remembers
     def __init__(self, id: int, /, *, context: Optional[Context] = None, **channels: Param) -> None:

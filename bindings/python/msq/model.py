@@ -17,7 +17,7 @@ from ._interrupt import interruptible
 from ._library import defaults, lib
 from ._signals import held
 from .camera import Camera
-from .context import Context, Job, context_of, doubles, c_path, c_text, unsigned
+from .context import Context, Job, MadeIn, context_of, doubles, c_path, c_text, unsigned
 from .contours import Contours, Window
 from .field import Param, set_param
 from .material import Material, encoded, lend_material
@@ -58,6 +58,7 @@ class Model(Handle):
     """
 
     _kind = "model"
+    context = MadeIn()
     shape: parameter[Shape] = parameter("The coarse shape. Not of models of regions and documents.")
     structures: parameter[Union[Part, Sequence[Part]]] = parameter(
         "As given. Not of models of regions and documents.")

@@ -17,7 +17,7 @@ from ._handle import Handle, hash_of, pointers
 from ._host import HashKey, create
 from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib, report
-from .context import (Context, Job, context_of, doubles, c_path, record, triple,
+from .context import (Context, Job, MadeIn, context_of, doubles, c_path, record, triple,
                       unsigned)
 from .errors import naming
 
@@ -45,7 +45,7 @@ class Shape(Handle):
     """A coarse solid. Made by the class methods."""
 
     _kind = "shape"
-    context: Context
+    context = MadeIn()
 
     def __init__(self) -> None:
         raise TypeError("shapes are made by Shape.from_file, from_mesh, box and the like")

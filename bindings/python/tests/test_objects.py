@@ -296,6 +296,26 @@ class Lifetimes(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "cache_policy"):
             msq.Context(cache_policy="lifo")
 
+    def test_objects_keep_a_context_that_is_closed(self):
+        with msq.Context(threads=1) as context:
+            box = msq.Shape.box((0, 0, 0), (4, 4, 4), context=context)
+            foam = msq.Foam(radius=0.1, context=context)
+            field = msq.Field.gradient((0, 0, 0), 1, (4, 0, 0), 2, context=context)
+            walls = msq.Functional("gyroid", kind="sheet", thickness=0.1, context=context)
+            with self.assertRaisesRegex(AttributeError, "context cannot be set: a Foam is immutable"):
+                foam.context = context
+        with self.assertRaisesRegex(ValueError, "this Context is closed"):
+            context.memory
+        self.assertGreater(foam.onset((1, 1, 1)), 0)
+        self.assertGreater(len(foam.strut_graph((0, 0, 0), (2, 2, 2))), 0)
+        sample = msq.Stratified((0, 0, 0), 1, (2, 2, 2), 64)
+        self.assertGreater(foam.calibrate(0.1, sample=sample).parameter, 0)
+        self.assertEqual(field.evaluate((2.0, 0, 0)), 1.5)
+        self.assertGreater(walls.fill_cell_size(0.4, 0.2)[0], 0)
+        self.assertGreater(len(walls.fill_lines([(0, 0), (40, 0), (40, 40)], 0.5, scale=0.1)), 0)
+        for made in (box, msq.Model(box, [foam]), foam | walls, msq.Foam(radius=field, cell_size=4)):
+            self.assertEqual(made.context.threads, 1)
+
 
 class Copies(unittest.TestCase):
     def test_share_the_object_or_are_refused_in_plain_words(self):
