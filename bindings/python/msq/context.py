@@ -79,11 +79,11 @@ class CacheInfo:
 class JobInfo:
     """What answered the points of the last set query or statistic under a job."""
 
-    points: int  #: answered
-    by_shape: int  #: of these, by the coarse shape alone
-    by_point: int  #: asked of structures one by one, counted for each structure
-    by_set: int  #: asked of structures in groups, likewise
-    groups: int  #: into which by_set fell
+    points: int  #: number of points answered
+    by_shape: int  #: points that the coarse shape alone answered
+    by_point: int  #: points that structures answered one by one, counted for each structure
+    by_set: int  #: points that structures answered in groups, counted for each structure
+    groups: int  #: number of these groups
 
 
 def build_info() -> BuildInfo:
@@ -115,17 +115,18 @@ def _forget_warning(user: int) -> None:
 class Context(Handle):
     """Threads, cell cache and memory limit that objects share.
 
-    threads: of a call, the caller's included; 0: one a core; at most that unless beyond_cores, for
-    tests. cache_bytes: of cell data, default 1 GiB. memory_limit: bytes that meshes, slabs and
-    cached cells may hold; 0: no limit.
-    cache_policy: `fifo`, or `segmented`, which rather keeps cells that are asked for again. Results
-    never depend on them. The `parallel_for` of msq_context_def is not offered: a task of Python would
-    take the interpreter lock, so threads of msq are quicker. Objects made without a context share that of what they are made from, or
-    one of defaults.
+    threads: greatest number of threads per call, with the caller. 0: one per core. More than the cores
+    need beyond_cores, which is for tests. cache_bytes: greatest size of the cell cache; None: 1 GiB.
+    memory_limit: bytes that meshes, slabs and cached cells may hold; 0: no limit. cache_policy: `fifo`,
+    or `segmented`, which keeps cells that were used again. Results depend on none of these.
 
-    on_warning(kind, message): called, on the thread that calls msq, with what is legal but doubtful,
-    once for each object: `open_mesh`, `coarse_pitch`, `small_cache`, `unmatched_cells`. It must not
-    raise. It is kept as long as anything that was made in the context.
+    The package has no `parallel_for` of msq_context_def: a task of Python would take the interpreter
+    lock, so threads of msq are quicker. Objects made without a context take the context of what they
+    are made from, or else a shared one with the defaults.
+
+    on_warning(kind, message): msq calls it, on the thread that calls msq, once for each object that is
+    legal but doubtful. Kinds are `open_mesh`, `coarse_pitch`, `small_cache` and `unmatched_cells`. It
+    must not raise. It lives as long as anything that was made in the context.
     """
 
     _kind = "context"

@@ -302,14 +302,17 @@ class Model(Handle):
             picture = model.render(width=1024, height=1024, samples=3, occlusion_rays=16)
 
         camera: None: Camera.fit(model, width, height). outputs: `depth`, `normal`, `scale`,
-        `material` and `rgba`, of the ray through the middle of each pixel; rgba is the mean of
-        samples x samples rays. tile: (x, y, width, height) of the part to render, which is as that
-        of the whole. colour_by: `plain`, `scale`, `material` or `normal`; colours: (n, 3), linear,
-        0 to 1. background: red, green, blue, linear, and opacity. light: the direction to it: right,
-        up, towards the eye; ambient: the part of it from all around, less what occlusion_rays that
-        reach occlusion_distance meet; shadows: of the rest. None: as msq has it. on_pass(picture,
-        pass): called after each pass, first_step (64, 32 .. 1) pixels a ray and finer; it stops by
-        returning False. out: a picture whose arrays to write to. length_scale, job: as in contains.
+        `material` and `rgba`. They are those of the ray through the middle of each pixel; rgba is the
+        mean of samples x samples rays. tile: (x, y, width, height) of a part of the picture to render.
+        It equals that part of the whole picture. colour_by: `plain`, `scale`, `material` or `normal`.
+        colours: (n, 3), linear, 0 to 1. background: red, green, blue, linear, and opacity. light: the
+        direction to the light: right, up, towards the eye. None: msq's default. ambient: the part of
+        the light that comes from all sides; None: msq's default. occlusion_rays rays, of length
+        occlusion_distance, reduce it where they meet the model. shadows: whether the model keeps the
+        rest of the light off. on_pass(picture, pass): msq calls it after each pass. The first pass has
+        one ray per block of first_step x first_step pixels (64, 32 .. 1), later ones are finer. It
+        stops the call by returning False. out: a picture whose arrays are written.
+        length_scale and job are as in contains.
         """
         definition, keep = picture.make_definition(
             width, height, tile, samples, first_step, colour_by, colours, background, light,
