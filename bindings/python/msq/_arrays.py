@@ -118,9 +118,17 @@ def view(owner: Any, pointer: Any, shape: Sequence[int], kind: str) -> np.ndarra
     return np.asarray(_Memory(owner, start_of(pointer), shape, kind))
 
 
+def real(values: Any, name: str) -> np.ndarray:
+    """An array that is not complex: NumPy would drop the imaginary part with no more than a warning."""
+    array = np.asarray(values)
+    if array.dtype.kind == "c":
+        raise TypeError(f"{name} is complex; it must be real")
+    return array
+
+
 def vector(values: Any, dtype: Any, shape: Sequence[int], name: str) -> np.ndarray:
     """A contiguous array of small definitions, copied if need be; -1 in shape is any length."""
-    array = np.ascontiguousarray(values)
+    array = np.ascontiguousarray(real(values, name))
     wanted = np.dtype(dtype)
     if array.dtype != wanted:
         safe = array.astype(wanted)

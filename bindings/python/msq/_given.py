@@ -2,6 +2,8 @@
 """What objects were made from: parameters that can be read back, and repr."""
 from __future__ import annotations
 
+import collections.abc
+import dataclasses
 import functools
 import inspect
 from numbers import Number
@@ -83,12 +85,37 @@ class Given:
         return f"{subject}{self.name}({', '.join(parts)})"
 
 
+def shown(value: Any) -> str:
+    """repr of a tuple with names or a dataclass, as a call. Defaults are left out."""
+    if dataclasses.is_dataclass(value):
+        defaults = {field.name: field.default for field in dataclasses.fields(value)}
+    else:
+        defaults = {name: value._field_defaults.get(name, dataclasses.MISSING)
+                    for name in value._fields}
+    parts = {name: repr(_kept(getattr(value, name))) for name in defaults}
+    given = ", ".join(f"{name}={part}" for name, part in parts.items()
+                      if part != repr(defaults[name]))
+    return f"msq.{type(value).__name__}({given})"
+
+
+def plain(value: Any) -> Any:
+    """Arrays and lists as tuples, so that objects that hold them can be compared."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    return tuple(map(plain, value)) if isinstance(value, (list, tuple)) else value
+
+
 def remembers(make: F) -> F:
     """For __init__ and for class methods that make objects: keeps what they were called with."""
     signature = inspect.signature(make)
 
     @functools.wraps(make)
     def wrapped(*arguments: Any, **named: Any) -> Any:
+        # An iterator is used up by the call.
+        arguments = tuple(tuple(one) if isinstance(one, collections.abc.Iterator) else one
+                          for one in arguments)
+        named = {name: tuple(one) if isinstance(one, collections.abc.Iterator) else one
+                 for name, one in named.items()}
         result = make(*arguments, **named)
         made = arguments[0] if result is None else result
         made._given = Given(make, signature.bind(*arguments, **named))

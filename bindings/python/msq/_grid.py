@@ -8,8 +8,9 @@ from typing import Any, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _abi
-from ._arrays import address_of, vector
-from ._handle import lend
+from ._arrays import address_of, real, vector
+from ._given import shown
+from ._handle import Handle, lend
 from ._library import constant, defaults, lib
 from .context import triple, unsigned
 
@@ -58,14 +59,19 @@ class Period(NamedTuple):
     cell_sizes: Any
     axis: int = 2
 
+    def __repr__(self) -> str:
+        return shown(self)
+
 
 def set_period(definition: Any, period: Optional[Period]) -> Any:
     """Writes a period; returns what must be kept until the call is made. None: cells of one size."""
     if period is None:
         return None
+    if not isinstance(period, tuple):
+        raise TypeError(f"period is a {type(period).__name__}; it must be a Period")
     period = Period(*period)
-    positions = np.ascontiguousarray(period.positions, dtype=np.float64)
-    cell_sizes = np.ascontiguousarray(period.cell_sizes, dtype=np.float64)
+    positions = np.ascontiguousarray(real(period.positions, "positions"), np.float64)
+    cell_sizes = np.ascontiguousarray(real(period.cell_sizes, "cell_sizes"), np.float64)
     if positions.ndim != 1 or positions.shape != cell_sizes.shape:
         raise ValueError(f"period has positions of shape {positions.shape} and cell_sizes of shape "
                          f"{cell_sizes.shape}; they must be (n,) both")
@@ -92,6 +98,9 @@ class Warp(NamedTuple):
     shear_outwards: float = 0.0
     shear_along: float = 0.0
 
+    def __repr__(self) -> str:
+        return shown(self)
+
 
 class SampledWarp(NamedTuple):
     """Cells by a map: fields of samples (Field.grid) on one grid, which give the coordinates of
@@ -100,6 +109,9 @@ class SampledWarp(NamedTuple):
     u: Any
     v: Any
     w: Any
+
+    def __repr__(self) -> str:
+        return shown(self)
 
 
 AnyWarp = Union[Warp, SampledWarp]
@@ -112,11 +124,16 @@ def set_warp(definition: Any, warp: Optional[AnyWarp]) -> Any:
     warped = defaults(_abi.msq_warp_def)
     if isinstance(warp, SampledWarp):
         warped.kind = _abi.MSQ_WARP_SAMPLED
+        for name, field in zip("uvw", warp):
+            if not isinstance(field, Handle) or field._kind != "field":
+                raise TypeError(f"{name} of the warp is a {type(field).__name__}; it must be a Field")
         lend(warped, "u", warp.u)
         lend(warped, "v", warp.v)
         lend(warped, "w", warp.w)
         definition.warp = ctypes.pointer(warped)
         return warped, warp
+    if not isinstance(warp, tuple):
+        raise TypeError(f"warp is a {type(warp).__name__}; it must be a Warp or a SampledWarp")
     warp = Warp(*warp)
     warped.kind = _abi.MSQ_WARP_SPHERICAL if warp.count_polar else _abi.MSQ_WARP_CYLINDRICAL
     warped.count = unsigned(warp.count, 32, "count")
@@ -136,6 +153,9 @@ class Grid(NamedTuple):
     origin: Any = (0, 0, 0)
     rotation: Any = None
 
+    def __repr__(self) -> str:
+        return shown(self)
+
     def placed(self, matrix: Any) -> "Grid":
         """The grid moved along with a part that Shape.placed(matrix) moves: turned, moved and
         scaled uniformly. A structure on it is the same one at another place, if its radius is
@@ -151,7 +171,7 @@ class Grid(NamedTuple):
 
 def affine(matrix: Any) -> Any:
     """(3, 4), or (4, 4) with the last row 0, 0, 0, 1."""
-    rows = np.asarray(matrix, dtype=np.float64)
+    rows = np.asarray(real(matrix, "matrix"), np.float64)
     if rows.shape == (4, 4) and tuple(rows[3]) == (0, 0, 0, 1):
         rows = rows[:3]
     if rows.shape != (3, 4):

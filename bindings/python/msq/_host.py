@@ -57,8 +57,17 @@ def _ask(function: Callable[..., Any], count: int, given: Sequence[Tuple[Any, An
     if answers.shape != (count,):
         raise ValueError(f"{_name(function)} answered {count} points by an array of shape "
                          f"{answers.shape}; it must be ({count},)")
+    if answers.dtype.kind not in "biuf":
+        raise TypeError(f"{_name(function)} answered by values of dtype {answers.dtype}; they must be "
+                        "bools or real numbers")
     values = np.frombuffer((kind * count).from_address(start_of(out)), kind)
-    values[:] = answers != 0 if kind is ctypes.c_uint8 else answers
+    if kind is not ctypes.c_uint8:
+        values[:] = answers
+        return
+    if not np.isfinite(answers).all():
+        raise ValueError(f"{_name(function)} answered by values that are not finite; they must be bools "
+                         "or finite numbers")
+    values[:] = answers != 0
 
 
 def _name(function: Callable[..., Any]) -> str:

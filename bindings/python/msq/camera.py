@@ -8,6 +8,7 @@ import math
 from typing import TYPE_CHECKING, Optional, Sequence, Tuple
 
 from . import _abi
+from ._given import plain, shown
 from ._library import constant, defaults, lib
 from .context import doubles, triple, unsigned
 
@@ -34,6 +35,13 @@ class Camera:
     field_of_view: float = 40.0
     clip_near: float = 0.0
     clip_far: float = math.inf
+
+    def __post_init__(self) -> None:
+        for name in ("eye", "target", "up"):
+            object.__setattr__(self, name, plain(getattr(self, name)))
+
+    def __repr__(self) -> str:
+        return shown(self)
 
     @classmethod
     def fit(cls, model: Model, width: int, height: int, *,

@@ -12,6 +12,8 @@ import os
 import threading
 from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar, Union, overload
 
+import numpy as np
+
 from . import _abi
 from ._given import parameter, remembers
 from ._handle import Handle
@@ -284,9 +286,14 @@ def c_path(path: Union[str, bytes, "os.PathLike[str]"]) -> bytes:
 
 def triple(value: Any, name: str) -> Tuple[float, float, float]:
     """Three numbers; one number stands for all three."""
-    if isinstance(value, numbers.Real):
-        return (float(value),) * 3
-    values = tuple(float(number) for number in value)
+    try:
+        if np.iscomplexobj(value):
+            raise TypeError
+        if isinstance(value, numbers.Real) or isinstance(value, np.ndarray) and value.ndim == 0:
+            return (float(value),) * 3
+        values = tuple(float(number) for number in value)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}; it must be a number or three numbers") from None
     if len(values) != 3:
         raise ValueError(f"{name} has {len(values)} numbers; it must have 3")
     return values  # type: ignore[return-value]

@@ -97,7 +97,10 @@ def array(build: Build, grid: PointGrid, *, value: str = "contains", chunks: Any
     dtype = _dtype(value)
     recipe = _Recipe(build)
     shape = grid.shape
-    normal = dask.array.core.normalize_chunks(chunks, shape, dtype=dtype)
+    try:
+        normal = dask.array.core.normalize_chunks(chunks, shape, dtype=dtype)
+    except ZeroDivisionError:
+        raise ValueError(f"chunks are {chunks!r}; they must be at least 1") from None
     name = "msq-" + tokenize(recipe, grid, value, normal)
     ends = [list(itertools.accumulate(sizes, initial=0)) for sizes in normal]
     tasks = {(name, *index): (_block, recipe, grid, value,

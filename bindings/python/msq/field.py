@@ -114,6 +114,8 @@ class Field(Handle):
         apart, whose progress the job reports."""
         pairs = vector(curve, np.float64, (-1, 2), "curve")
         definition = defaults(_abi.msq_shape_distance_field_def)
+        if not isinstance(shape, Shape):
+            raise TypeError(f"shape is a {type(shape).__name__}; it must be a Shape")
         lend(definition, "shape", shape)
         definition.curve = pointer(pairs, ctypes.c_double)
         definition.curve_count = len(pairs)
@@ -157,7 +159,7 @@ def set_param(target: _abi.msq_param, name: str, value: Param) -> None:
     """Writes a parameter, as lend() does."""
     if isinstance(value, Field):
         lend(target, "field", value)
-    elif hasattr(value, "__float__"):
+    elif hasattr(value, "__float__") and not np.iscomplexobj(value):
         target.value = float(value)
         target.field = ctypes.POINTER(_abi.msq_field)()
     else:

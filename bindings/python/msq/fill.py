@@ -44,7 +44,10 @@ class Fill(Handle):
         definition.ring_count = len(rings)
         definition.point_stride = 0  # rings are contiguous
         definition.scale = scale
-        definition.origin[:] = [float(c) for c in origin]
+        place = [float(c) for c in origin]
+        if len(place) != 2:
+            raise ValueError(f"origin has {len(place)} numbers; it must have 2")
+        definition.origin[:] = place
         definition.z = z
         definition.tolerance = tolerance
         definition.min_length = min_length

@@ -10,8 +10,8 @@ from typing import Any, BinaryIO, Callable, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _abi, picture, statistics, surface
-from ._arrays import output, pointer, triples
-from ._given import parameter, remembers
+from ._arrays import output, pointer, real, triples
+from ._given import parameter, remembers, shown
 from ._handle import Handle, hash_of, lend, pointers
 from ._interrupt import interruptible
 from ._library import defaults, lib
@@ -45,6 +45,9 @@ class Scale:
     skin: Param = 0.0
     material: Optional[Material] = None
     skin_material: Optional[Material] = None
+
+    def __repr__(self) -> str:
+        return shown(self)
 
 
 Part = Union[Structure, Scale]  #: what a model is filled with
@@ -271,8 +274,8 @@ class Model(Handle):
         definition.origins, definition.origin_stride = starts.address, starts.stride
         definition.directions, definition.direction_stride = ways.address, ways.stride
         limits = [None if limit is None else
-                  np.ascontiguousarray(np.broadcast_to(limit, starts.shape), dtype=np.float64)
-                  for limit in (t_min, t_max)]
+                  np.ascontiguousarray(np.broadcast_to(real(limit, name), starts.shape), np.float64)
+                  for limit, name in ((t_min, "t_min"), (t_max, "t_max"))]
         to_double = ctypes.POINTER(ctypes.c_double)
         if limits[0] is not None:
             definition.t_min = limits[0].ctypes.data_as(to_double)

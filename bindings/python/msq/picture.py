@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import itertools
 import threading
 from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Tuple
 
@@ -105,6 +106,9 @@ def _arrays(outputs: Sequence[str], out: Optional[Picture], shape: Tuple[int, in
                              f"{', '.join(map(repr, _ARRAYS))}")
         dtype, parts, _ = _ARRAYS[name]
         setattr(picture, name, output(getattr(picture, name), (*shape, *parts), (dtype,)))
+    for one, other in itertools.combinations(dict.fromkeys(names), 2):
+        if np.may_share_memory(getattr(picture, one), getattr(picture, other)):
+            raise ValueError(f"out has {one} and {other} that lie in the same memory")
     return picture
 
 

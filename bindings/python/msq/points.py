@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import output, pointer, triples, vector
+from ._given import plain, shown
 from ._grid import Window, set_window
 from ._library import constant, defaults, lib
 from .context import triple, unsigned
@@ -29,7 +30,10 @@ class PointSet:
         """Points first .. first + count - 1, by default all, as an array (count, 3): the very
         numbers that queries see."""
         if count is None:
-            count = int(np.prod(self.shape, dtype=object)) - first
+            whole = int(np.prod(self.shape, dtype=object))
+            count = whole - operator.index(first)
+            if count < 0:
+                raise ValueError(f"first is {first}; there are {whole} points")
         answers = output(out, (operator.index(count), 3), (np.float64,))
         lib.msq_points_generate(ctypes.byref(definition_of(self).definition),
                                 unsigned(first, 64, "first"), len(answers),
@@ -55,6 +59,13 @@ class PointGrid(PointSet):
     spacing: Union[float, Sequence[float]]
     counts: Tuple[int, int, int]
     window: Optional[Window] = None
+
+    def __post_init__(self) -> None:
+        for name in ("origin", "spacing", "counts", "window"):
+            object.__setattr__(self, name, plain(getattr(self, name)))
+
+    def __repr__(self) -> str:
+        return shown(self)
 
     @property
     def shape(self) -> Tuple[int, ...]:
@@ -84,6 +95,13 @@ class Stratified(PointSet):
     per_cell: int = 1
     seed: int = 0
     rotation: Any = None
+
+    def __post_init__(self) -> None:
+        for name in ("origin", "spacing", "counts", "rotation"):
+            object.__setattr__(self, name, plain(getattr(self, name)))
+
+    def __repr__(self) -> str:
+        return shown(self)
 
     @property
     def shape(self) -> Tuple[int, ...]:

@@ -33,6 +33,7 @@ _MOST_AHEAD_BYTES = 64 << 20  # of layers that an iterator holds
 _AXES = {0: (0, 1, 0, 0, 0, 1, 1, 0, 0), 1: (1, 0, 0, 0, 0, 1, 0, 1, 0), 2: ()}
 _PIXELS = {"bytes": np.uint8, "grey": np.uint8, "distance": np.float32, "material": np.uint32,
            "onset": np.float32, "channel": np.float32}
+_NAMES = [name for name in ("bits", *_PIXELS) if name != "channel"]  # which need no more than a name
 
 Region = Tuple[Sequence[float], Sequence[float]]
 
@@ -212,9 +213,9 @@ class Slicer(Handle):
             definition.frame_axes[:] = _AXES[axis]
         set_window(definition.window, window)
         if isinstance(output, str):
-            if output not in ("bits", *_PIXELS):
-                raise ValueError(f"output is {output!r}; it must be one of bits, "
-                                 f"{', '.join(_PIXELS)}, or a list of Output")
+            if output not in _NAMES:
+                raise ValueError(f"output is {output!r}; it must be one of {', '.join(_NAMES)}, or a list "
+                                 "of Output")
             definition.output = constant("MSQ_LAYER_", output, "output")
             self._kinds: Tuple[str, ...] = (output,)
         else:

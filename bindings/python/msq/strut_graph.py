@@ -12,7 +12,7 @@ from ._arrays import view
 from ._handle import Handle, lend
 from ._interrupt import build
 from ._library import defaults, lib
-from .context import Job
+from .context import Job, triple
 from .shape import Shape
 
 
@@ -32,9 +32,11 @@ class StrutGraph(Handle):
             near: bool, shape: Optional[Shape], job: Optional[Job]) -> StrutGraph:
         definition = defaults(_abi.msq_struts_def)
         definition.selection = _abi.MSQ_STRUTS_NEAR if near else _abi.MSQ_STRUTS_OWNED
-        definition.min[:] = [float(c) for c in min]
-        definition.max[:] = [float(c) for c in max]
+        definition.min[:] = triple(min, "min")
+        definition.max[:] = triple(max, "max")
         if shape is not None:
+            if not isinstance(shape, Shape):
+                raise TypeError(f"shape is a {type(shape).__name__}; it must be a Shape")
             lend(definition, "shape", shape)
         graph = cls._wrap(build(
             lambda create: cls._create(create, context, structure, ctypes.byref(definition)),

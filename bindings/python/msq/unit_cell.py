@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-from typing import Any, List, Sequence, Tuple, Union
+from typing import Any, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi
 from ._arrays import pointer, vector
+from ._given import Given, remembers
 from ._library import constant, defaults, lib
 from .context import record
 
@@ -36,6 +37,9 @@ class UnitCell:
     strut_factors: of the radius, one a strut.
     """
 
+    _given: Optional[Given] = None
+
+    @remembers
     def __init__(self, name: Union[str, None] = None, *, nodes: Any = None, struts: Any = None,
                  strut_factors: Any = None) -> None:
         definition = defaults(_abi.msq_unit_cell_def)
@@ -61,6 +65,9 @@ class UnitCell:
                                  f"{definition.strut_count} struts")
             definition.strut_count = len(factors)
         self._definition = definition
+
+    def __repr__(self) -> str:
+        return "<msq.UnitCell>" if self._given is None else self._given.text("msq.UnitCell")
 
     @property
     def info(self) -> UnitCellInfo:

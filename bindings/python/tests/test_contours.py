@@ -45,6 +45,12 @@ class ContoursTest(unittest.TestCase):
     def test_topology(self):
         foam = msq.Model(msq.Shape.box((0, 0, 0), (4, 4, 4)), [msq.Foam(cell_size=1, radius=0.1)])
         plain = foam.contours(2.0, 0.2)
+        self.assertGreater(len(plain), 3)
+        for part in (slice(0, 2), slice(None, None, -1), slice(-2, None), slice(99, None)):
+            rings, expected = plain[part], list(plain)[part]
+            self.assertEqual(len(rings), len(expected))
+            for ring, other in zip(rings, expected):
+                np.testing.assert_array_equal(ring, other)
         self.assertIsNone(plain.topology_count)
         counted = foam.contours(2.0, 0.2, topology_samples=8)
         self.assertGreater(counted.topology_count, 0)

@@ -93,6 +93,8 @@ class DaskTest(unittest.TestCase):
 
     def test_a_window_of_a_grid(self):
         window = msq.PointGrid(GRID.origin, GRID.spacing, GRID.counts, ((5, 7, 9), (40, 30, 20)))
+        with self.assertRaisesRegex(ValueError, "chunks are 0; they must be at least 1"):
+            msq.dask.array(build, GRID, chunks=0)
         part = msq.dask.array(build, window, chunks=16).compute()
         np.testing.assert_array_equal(part, build().contains(GRID)[9:29, 7:37, 5:45])
         msq.dask.to_zarr(build, window, self.path("part"), chunks=16)

@@ -61,6 +61,22 @@ class ReadBack(unittest.TestCase):
         self.assertEqual(msq.Model(msq.Shape.box((0, 0, 0), (1, 1, 1)), foams).structures, foams)
         self.assertEqual(repr(msq.Structure.union(*foams)).count("msq.Foam"), 20)
 
+    def test_generators_are_kept_as_what_they_yield(self):
+        foam = msq.Foam(radius=0.2)
+        box = msq.Shape.box((0, 0, 0), (1, 1, 1))
+        model = msq.Model(box, (one for one in [foam, msq.Scale(foam, skin=0.1)]))
+        self.assertIs(model.structures[0], foam)
+        self.assertEqual(len(model.structures), 2)
+
+    def test_grids_and_cameras_are_compared(self):
+        grid = msq.PointGrid(np.zeros(3), 1, [2, 3, 4])
+        self.assertEqual(grid, msq.PointGrid((0.0, 0.0, 0.0), 1, (2, 3, 4)))
+        self.assertNotEqual(grid, msq.PointGrid(np.ones(3), 1, (2, 3, 4)))
+        self.assertEqual(len({grid, msq.PointGrid([0, 0, 0], 1, np.array([2, 3, 4]))}), 1)
+        self.assertEqual(msq.Stratified((0, 0, 0), 1, (2, 2, 2), rotation=np.eye(3)),
+                         msq.Stratified((0, 0, 0), 1, (2, 2, 2), rotation=np.eye(3).tolist()))
+        self.assertEqual(msq.Camera(np.array([9, 0, 0]), (0, 0, 0)), msq.Camera((9, 0, 0), (0, 0, 0)))
+
     def test_large_arrays_are_not_kept(self):
         values = np.zeros((8, 8, 8))
         field = msq.Field.grid(values)
@@ -84,6 +100,18 @@ class Repr(unittest.TestCase):
             self.assertEqual(repr(again), repr(made))
             if msq.build_info().with_xxhash:
                 self.assertEqual(again.hash, made.hash, repr(made))
+        for made in (msq.Warp(12, 1, outer_radius=3.0), msq.SampledWarp(field, field, field),
+                     msq.Period([0, 1], [1, 2]), msq.Grid(2, (1, 2, 3)), msq.UnitCell("bcc"),
+                     msq.UnitCell(nodes=[(0, 0, 0), (1, 1, 1)], struts=[(0, 1)]),
+                     msq.Scale(msq.Foam(radius=0.2), skin=0.1), msq.Camera((9, 0, 0), (0, 0, 0)),
+                     msq.PointGrid((0, 0, 0), 1, (2, 3, 4), ((0, 0, 0), (1, 1, 1))),
+                     msq.Stratified((0, 0, 0), 1, (2, 3, 4), seed=3),
+                     msq.Lattice(msq.UnitCell("bcc"), radius=0.1, warp=msq.Warp(12, 4))):
+            self.assertEqual(repr(eval(repr(made), dict(NAMES))), repr(made))
+        self.assertEqual(repr(msq.Warp(12, 1, 3.0)),
+                         "msq.Warp(count=12, inner_radius=1, outer_radius=3.0)")
+        self.assertEqual(repr(msq.Period(np.zeros(99), 1)),
+                         "msq.Period(positions=<array (99,)>, cell_sizes=1)")
         self.assertEqual(repr(msq.Foam(radius=0.2, cell_size=2)), "msq.Foam(radius=0.2, cell_size=2)")
 
     def test_others_say_what_they_hold(self):

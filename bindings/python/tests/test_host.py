@@ -304,6 +304,18 @@ class Lifetimes(unittest.TestCase):
             msq.Shape.host(in_ball, (0, 0, 0), (0, 0, 0))
         self.assertEqual(_host.count(), before)
 
+    def test_answers_that_are_neither_bools_nor_numbers(self):
+        for answers, error in (([None], TypeError), (["no"], TypeError), ([1j], TypeError),
+                               ([np.nan], ValueError), ([np.inf], ValueError)):
+            shape = msq.Shape.host(lambda points, given=answers: given * len(points), (0, 0, 0),
+                                   (8, 6, 4))
+            with self.assertRaisesRegex(error, "<lambda> answered by values"):
+                msq.Model(shape).contains((1, 1, 1))
+        for answers in ([True], [np.uint8(2)], [-1], [0.5]):
+            shape = msq.Shape.host(lambda points, given=answers: given * len(points), (0, 0, 0),
+                                   (8, 6, 4))
+            self.assertTrue(msq.Model(shape).contains((1, 1, 1)))
+
     def test_threads_share_them(self):
         points = random_points(20000)
         expected, wrong = in_ball(points), []

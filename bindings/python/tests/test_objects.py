@@ -317,6 +317,51 @@ class Lifetimes(unittest.TestCase):
             self.assertEqual(made.context.threads, 1)
 
 
+class Refused(unittest.TestCase):
+    """Messages name the argument."""
+
+    def test_arguments(self):
+        box = msq.Shape.box((0, 0, 0), (4, 4, 4))
+        foam = msq.Foam(radius=0.1, cell_size=np.array(2.0))
+        walls = msq.Functional("gyroid", kind="sheet", thickness=0.1)
+        grid = msq.PointGrid((0, 0, 0), 1, (3, 4, 5))
+        self.assertEqual(grid.coordinates(60).shape, (0, 3))
+        model = msq.Model(box)
+        cube = [(1 + 0j, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0)]
+        for error, message, call in (
+                (TypeError, "warp is a int; it must be a Warp or a SampledWarp",
+                 lambda: msq.Foam(radius=0.1, warp=7)),
+                (TypeError, "u of the warp is a int; it must be a Field",
+                 lambda: msq.Foam(radius=0.1, warp=msq.SampledWarp(1, 2, 3))),
+                (TypeError, "period is a int; it must be a Period",
+                 lambda: msq.Foam(radius=0.1, period=7)),
+                (TypeError, "shape is a NoneType; it must be a Shape",
+                 lambda: msq.Field.shape_distance(None, [(0, 0), (1, 1)])),
+                (TypeError, "cell_size is None; it must be a number or three numbers",
+                 lambda: msq.Foam(radius=0.1, cell_size=None)),
+                (ValueError, "min has 2 numbers; it must have 3",
+                 lambda: foam.strut_graph((0, 0), (4, 4))),
+                (TypeError, "shape is a int; it must be a Shape",
+                 lambda: foam.strut_graph((0, 0, 0), (4, 4, 4), shape=1)),
+                (ValueError, "origin has 1 numbers; it must have 2",
+                 lambda: walls.fill_lines([(0, 0), (9, 0), (9, 9)], 1, origin=(1,))),
+                (ValueError, "first is 61; there are 60 points", lambda: grid.coordinates(61)),
+                (ValueError, "output is 'channel'; it must be one of bits, .*, onset, or a list",
+                 lambda: model.slicer(layer_height=1, pitch=1, output="channel")),
+                (TypeError, "cell_size is .*; it must be a number or three",
+                 lambda: msq.Foam(radius=0.1, cell_size=np.array([1, 2, 3j]))),
+                (TypeError, "radius is a complex; it must be a number",
+                 lambda: msq.Foam(radius=1j)),
+                (TypeError, "matrix is complex; it must be real", lambda: box.placed(cube)),
+                (TypeError, "layer_z is complex", lambda: model.slicer(layer_z=[1j], pitch=1)),
+                (TypeError, "positions is complex",
+                 lambda: msq.Foam(radius=0.1, period=msq.Period([0, 1j], [1, 2]))),
+                (TypeError, "t_max is complex",
+                 lambda: model.cast((0.0, 0, 0), (1.0, 0, 0), t_max=1j))):
+            with self.assertRaisesRegex(error, message):
+                call()
+
+
 class Copies(unittest.TestCase):
     def test_share_the_object_or_are_refused_in_plain_words(self):
         box = msq.Shape.box((0, 0, 0), (1, 1, 1))

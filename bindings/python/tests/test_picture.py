@@ -49,6 +49,11 @@ class Pictures(unittest.TestCase):
         self.assertTrue(np.array_equal(tile.rgba, whole.rgba[5:12, 11:20]))
         with self.assertRaisesRegex(ValueError, "shape"):
             model.render(width=WIDTH, height=HEIGHT, out=out)
+        depth = np.zeros((HEIGHT, WIDTH), np.float32)
+        with self.assertRaisesRegex(ValueError, "depth and scale that lie in the same memory"):
+            model.render(width=WIDTH, height=HEIGHT,
+                         out=msq.Picture(depth=depth, scale=depth.view(np.int32)))
+        model.render(width=9, height=7, outputs=("rgba", "rgba"))
         with self.assertRaisesRegex(ValueError, "'colour'"):
             model.render(outputs=("colour",))
         with self.assertRaisesRegex(msq.ArgumentError, "samples is 17"):
