@@ -509,7 +509,11 @@ func (s *Slicer) Run(first, count uint64, job *Job, take func(Layer) error) erro
 		panic(taker.panic)
 	}
 	if taker.err != nil {
-		return fmt.Errorf("layers %d to %d: %w", first, first+count, taker.err)
+		end := s.LayerCount
+		if count < end-first {
+			end = first + count
+		}
+		return fmt.Errorf("layers %d to %d: %w", first, end, taker.err)
 	}
 	return err
 }

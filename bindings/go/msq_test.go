@@ -59,6 +59,12 @@ func TestErrorsAndPanicsOfTheFunctionStopTheRun(t *testing.T) {
 	if !errors.Is(err, enough) || calls != 1 {
 		t.Errorf("%v after %d calls", err, calls)
 	}
+	for count, want := range map[uint64]string{2: "layers 5 to 7: enough", math.MaxUint64: "layers 5 to 8: enough"} {
+		err = slicer.Run(5, count, nil, func(Layer) error { return enough })
+		if err == nil || err.Error() != want {
+			t.Errorf("%v in place of %s", err, want)
+		}
+	}
 	defer func() {
 		if recover() != "oh" {
 			t.Error("the panic was lost")
