@@ -5,6 +5,7 @@ use std::os::raw::{c_char, c_void};
 use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::ptr;
 
+use crate::error::forget;
 use crate::{check, sys, Result};
 
 handle!(
@@ -39,7 +40,7 @@ unsafe extern "C" fn warn(user: *mut c_void, code: i32, message: *const c_char) 
 }
 
 unsafe extern "C" fn forget_warning(user: *mut c_void) {
-    drop(Box::from_raw(user as *mut Warning));
+    forget::<Warning>(user);
 }
 
 impl Context {

@@ -3,6 +3,7 @@
 use std::any::Any;
 use std::ffi::CStr;
 use std::fmt;
+use std::os::raw::c_void;
 use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
 use std::sync::{Mutex, PoisonError};
 
@@ -109,6 +110,11 @@ pub(crate) fn guarded(run: impl FnOnce() -> std::result::Result<(), i32>) -> i32
         Ok(Err(code)) => code,
         Err(panic) => keep(Stop::Panic(panic)),
     }
+}
+
+/// Drops what a definition boxed. A panic of its drop ends here: no call reports it.
+pub(crate) unsafe fn forget<T>(user: *mut c_void) {
+    let _ = catch_unwind(AssertUnwindSafe(|| drop(Box::from_raw(user as *mut T))));
 }
 
 /// The result of a call of msq on this thread. Resumes the panic of a closure that stopped it.

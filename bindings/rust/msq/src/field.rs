@@ -5,7 +5,7 @@ use std::os::raw::c_void;
 
 use crate::array::{elements, elements_mut, product};
 use crate::context::Context;
-use crate::error::guarded;
+use crate::error::{forget, guarded};
 use crate::{sys, Error, Result};
 
 handle!(
@@ -29,8 +29,8 @@ unsafe extern "C" fn evaluate(
     guarded(|| function(points, values))
 }
 
-unsafe extern "C" fn forget(user: *mut c_void) {
-    drop(Box::from_raw(user as *mut ValuesFn));
+unsafe extern "C" fn forget_values(user: *mut c_void) {
+    forget::<ValuesFn>(user);
 }
 
 impl Field {
@@ -104,10 +104,10 @@ impl Field {
         def.evaluate = Some(evaluate);
         let user = Box::into_raw(Box::new(function)) as *mut c_void;
         def.user = user;
-        def.release = Some(forget);
+        def.release = Some(forget_values);
         let made = Field::make(|raw| unsafe { sys::msq_field_host(context.as_ptr(), &def, raw) });
         if made.is_err() {
-            unsafe { forget(user) };
+            unsafe { forget_values(user) };
         }
         made
     }

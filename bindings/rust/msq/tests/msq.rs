@@ -462,6 +462,35 @@ fn meshes_close() {
 }
 
 #[test]
+fn panics_of_the_drop_of_what_closures_hold_end_there() {
+    struct Bomb(Arc<AtomicUsize>);
+    impl Drop for Bomb {
+        fn drop(&mut self) {
+            self.0.fetch_add(1, Ordering::SeqCst);
+            panic!("in drop");
+        }
+    }
+    let count = Arc::new(AtomicUsize::new(0));
+    let (of_field, of_context) = (Bomb(count.clone()), Bomb(count.clone()));
+    let options = ContextOptions {
+        warning: Some(Box::new(move |_, _| {
+            let _ = &of_context;
+        })),
+        ..ContextOptions::default()
+    };
+    let context = Context::with(options).unwrap();
+    let field = Field::host(&context, 0.0, 1.0, 0.0, true, Box::new(move |_, values| {
+        let _ = &of_field;
+        values.fill(0.5);
+        Ok(())
+    }));
+    drop(field.unwrap());
+    assert_eq!(count.load(Ordering::SeqCst), 1);
+    drop(context);
+    assert_eq!(count.load(Ordering::SeqCst), 2);
+}
+
+#[test]
 fn warnings_reach_the_closure_of_the_context() {
     let count = Arc::new(AtomicUsize::new(0));
     let counted = count.clone();
