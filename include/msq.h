@@ -31,18 +31,20 @@
  * struct and sizes above 4096 are refused.
  *
  * Reports. A report is a struct that msq fills in. The caller sets its struct_size. msq writes no
- * byte past that size, and sets bytes of unknown fields to 0.
+ * byte past that size, and sets bytes of unknown fields to 0. Sizes too small for any version of
+ * the report and sizes above 4096 are refused.
  *
  * Inputs. A constructor copies the arrays and strings that it is given. NULL is refused unless the
- * comment gives it a meaning. Outputs must not overlap inputs or each other. Set queries and rays
- * refuse outputs that overlap their inputs. A job may be NULL everywhere: the call then reports no
- * progress and cannot be cancelled. Numbers that are not finite are refused.
+ * comment gives it a meaning. A user pointer may be NULL. Outputs must not overlap inputs or each
+ * other. Set queries and rays refuse outputs that overlap their inputs. A job may be NULL
+ * everywhere: the call then reports no progress and cannot be cancelled. NaN is refused. Infinity
+ * is refused unless the comment gives it a meaning.
  *
  * Threads. Every function may be called from any thread. Callbacks run on the thread that called
- * msq and may call msq. Only callbacks of objects defined with concurrent = 1 may run on other
- * threads: those of msq, or those of the host's parallel_for. If a thread cannot be started, the
- * call uses the threads that exist. Working memory is kept for the next call and freed with the
- * last context of the process.
+ * msq and may call msq. A callback must return: it must not end its thread (pthread_exit). Only
+ * callbacks of objects defined with concurrent = 1 may run on other threads: those of msq, or those
+ * of the host's parallel_for. If a thread cannot be started, the call uses the threads that exist.
+ * Working memory is kept for the next call and freed with the last context of the process.
  *
  * Stack. A thread of the host with a stack of 64 KiB may call every function: large working memory
  * is on the heap, and thread-local storage takes less than 1 KiB. Three kinds of calls need more:
@@ -654,15 +656,14 @@ MSQ_API msq_status msq_file_def_init(msq_file_def* def, size_t size);
  * polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It
  * opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ:
  * vertices and faces are read. glTF: the triangles of the default scene are read from buffers in
- * the file, and the transforms of nodes are applied; y, which is up in glTF, becomes z. Limit:
- * coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a
- * million triangles: about a second). Cancelling ends the call within tens of milliseconds, except
- * while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed
- * file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16;
- * binary STL, 3MF or AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam
- * lattices, see msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or
- * skins), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY,
- * CANCELLED. */
+ * the file, and the transforms of nodes are applied; y, which is up in glTF, becomes z. Cost:
+ * linear in the size of the file (a million triangles: about a second). Cancelling ends the call
+ * within tens of milliseconds, except while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO
+ * (missing, truncated or malformed file; for OBJ and ASCII STL the message names the line),
+ * UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without Assimp, glTF in
+ * one without JSON; a 3MF file with beam lattices, see msq_beam_file_open; glTF with buffers in
+ * other files, compressed or sparse data, or skins), MESH (no triangles, index out of range,
+ * coordinate that is not finite or above 1e100 in millimetres), LIMIT, MEMORY, CANCELLED. */
 MSQ_API msq_status msq_shape_from_file(msq_context* context, const char* path,
                                        const msq_file_def* def, msq_shape** shape, msq_job* job);
 
@@ -709,11 +710,11 @@ MSQ_API msq_status msq_mesh_def_init(msq_mesh_def* def, size_t size);
  * about 500 bytes per open edge. A point near a hole, or where the winding number is near a half,
  * may take a sum over all open edges.
  *
- * Limits: coordinates up to 1e100; 2^32 - 1 vertices and triangles. Cost: linear in the number of
- * triangles; msq keeps about 75 bytes per triangle and needs 100 during construction. Errors:
- * ARGUMENT, MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY.
- * Source: Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using
- * generalized winding numbers", 2013. */
+ * Limit: 2^32 - 1 vertices and triangles. Cost: linear in the number of triangles; msq keeps about
+ * 75 bytes per triangle and needs 100 during construction. Errors: ARGUMENT, MESH (no triangles,
+ * index out of range, coordinate that is not finite or above 1e100), LIMIT, MEMORY. Source:
+ * Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized
+ * winding numbers", 2013. */
 MSQ_API msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def,
                                        msq_shape** shape);
 
@@ -809,19 +810,21 @@ MSQ_API msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_
  * allowed.
  *
  * A point p is inside if the original contains B * (p - b). b is the last column. B is the inverse
- * of the first three columns, computed once in double precision. Lengths keep the unit of the
- * model. If the map scales all directions alike (within 1e-6), distance and depth are those of the
- * original, scaled. Otherwise the distance is at least the original's times the smallest scale of a
- * direction, and the shape has no depth, so no scale can leave a skin in it: transform the vertices
- * of a mesh instead. Bounds enclose the placed bounding box of the original.
+ * of the first three columns, A, computed once in double precision. Skeel's condition is the
+ * greatest row sum of |A| |B|. Scaling along an axis does not change it; shears and oblique axes
+ * do. Lengths keep the unit of the model. If the map scales all directions alike (within 1e-6),
+ * distance and depth are those of the original, scaled. Otherwise the distance is at least the
+ * original's times the smallest scale of a direction, and the shape has no depth, so no scale can
+ * leave a skin in it: transform the vertices of a mesh instead. Bounds enclose the placed bounding
+ * box of the original.
  *
  * Cost: constant. Points and rays cost what they cost in the original. Layers of a closed mesh cost
- * up to twice those of the original; the first one places a copy of its vertices and
- * triangles, which counts against the memory limit. Layers of other shapes evaluate the distance
- * at a few samples per sample of the outline, which costs tens of times as much as an unplaced
- * mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition
- * above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more
- * than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. */
+ * up to twice those of the original; the first one places a copy of its vertices and triangles,
+ * which counts against the memory limit. Layers of other shapes evaluate the distance at a few
+ * samples per sample of the outline, which costs tens of times as much as an unplaced mesh. Errors:
+ * ARGUMENT (numbers that are not finite; a singular matrix, or one with Skeel's condition above
+ * 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64
+ * shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. */
 MSQ_API msq_status msq_shape_placed(const msq_shape* original, const double matrix[12],
                                     msq_shape** shape);
 
@@ -2508,7 +2511,7 @@ enum msq_onset_value {
    * foams: the distance to the nearest strut axis in model units; with strut factors, the minimum
    * of distance / factor. Plates and walls: the same with twice the distance to the nearest face.
    * Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of
-   * lattices and foams: the minimum of their onsets. */
+   * lattices of struts and foams of struts alone: the minimum of their onsets. */
   MSQ_ONSET_PLAIN = 0,
   /** The onset minus the structure's radius or level at the point: at most 0 inside, positive
    * outside. Unions: the minimum of these. */
@@ -2642,17 +2645,18 @@ typedef struct msq_calibration_report {
  * target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20). At parameters[i] the
  * fraction is fractions[i] = i / (pair_count - 1) * max_fraction. Radii and thicknesses are in
  * model units. The fractions ascend strictly; neighbouring parameters may be equal. They convert a
- * field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not
- * wanted. sample NULL: 2 points in each of 64^3 parts of a box that begins at the origin of the
- * grid. The box is one cell for lattices and functional structures, and 16^3 cells for foams and
- * waves. With a period these are cells of the smallest size; in unions they are those of the grid
- * with the largest cells. Structures in warped cells need a sample. job NULL: no job. Cost: the
- * onset of each point (lattices 0.1 us, in warped cells 10 to 100 us; foams 1.5 us; in parallel)
- * and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds
- * without onset: lattices with two or more unit cells, lattices of plates and struts, foams of
- * struts and walls, host structures and functions, beams, and structures made of others, except
- * unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction; points 2^24 cells or
- * more from the origin of a grid, or beyond 1e75; memory), MEMORY. */
+ * field of density to one of radius (msq_field_map). parameters and fractions must be NULL if
+ * pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of a box
+ * that begins at the origin of the grid. The box is one cell for lattices and functional
+ * structures, and 16^3 cells for foams and waves. With a period these are cells of the smallest
+ * size; in unions they are those of the grid with the largest cells. Structures in warped cells
+ * need a sample. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, in warped cells
+ * 10 to 100 us; foams 1.5 us; in parallel) and a sort; 16 bytes per point, accounted to the
+ * context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit
+ * cells, lattices of plates and struts, foams of struts and walls, host structures and functions,
+ * beams, and structures made of others, except unions of lattices of struts and foams of struts
+ * alone), CANCELLED, LIMIT (target above max_fraction; points 2^24 cells or more from the origin of
+ * a grid, or beyond 1e75; memory), MEMORY. */
 MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
                                            const msq_points_def* sample, double target,
                                            double* parameters, double* fractions,
@@ -3683,7 +3687,8 @@ MSQ_API msq_status msq_document_from_json(msq_context* context, const char* text
                                           msq_job* job);
 
 /** Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path.
- * The rest is as in msq_document_from_json. Errors: as msq_document_from_json. */
+ * def NULL: defaults. job NULL: no job. The rest is as in msq_document_from_json. Errors: as
+ * msq_document_from_json. */
 MSQ_API msq_status msq_document_from_file(msq_context* context, const char* path,
                                           const msq_document_def* def, msq_document** document,
                                           msq_job* job);

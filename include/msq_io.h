@@ -18,10 +18,10 @@
  *
  * Files. Paths are in UTF-8. A file gets its name when it is complete. Until then it has a
  * temporary name in the same folder, ".<name>.<letters>.part". After a failure, a cancelled call or
- * on a full disk neither file is left. Only a process that is killed can leave the temporary file.
- * Folders of a path must exist. replace 0: if a file of this name exists, it stays as it is, and
- * the call returns MSQ_E_IO. replace 1: the new file replaces it in one step and keeps its
- * permissions.
+ * on a full disk neither file is left. A process that is killed, or ends before
+ * msq_io_writer_release, leaves the temporary file. Folders of a path must exist. replace 0: if a
+ * file of this name exists, it stays as it is, and the call returns MSQ_E_IO. replace 1: the new
+ * file replaces it in one step and keeps its permissions.
  *
  * Same bytes. The bytes of a file depend on the layers and on the definitions, not on the number of
  * threads or the clock.
@@ -254,8 +254,8 @@ typedef struct msq_io_sl1_def {
   /** Other lines "key = value" for prusaslicer.ini, each with a line feed at its end. Keys that
    * msq_io writes itself are errors. NULL (default): none. */
   const char* settings;
-  /** fileCreationTimestamp, in seconds since 1970-01-01 UTC, at least 315532800 (1980). 0
-   * (default): that of 1980-01-01, so that the same layers make the same file. */
+  /** fileCreationTimestamp, in seconds since 1970-01-01 UTC, from 315532800 (1980) to 4354819199
+   * (2107). 0 (default): that of 1980-01-01, so that the same layers make the same file. */
   int64_t created;
   /** layer_height in millimetres. 0 (default): the distance between the slicer's layers; there must
    * then be at least two. */
