@@ -38,7 +38,7 @@ class Member:
     type: Type
     doc: str = ""
     direction: str = ""  # of arguments: in, out, inout
-    nullable: bool = False  # of arguments: a job or query, or the comment gives NULL a meaning
+    nullable: bool = False  # of arguments: a job, query or user, or the comment gives NULL a meaning
     count: str = ""  # of arrays: the name of the member with the number of elements
 
 
@@ -268,11 +268,19 @@ def _read_comments(header: Header, path: pathlib.Path) -> None:
 
 def _is_nullable(argument: Member, function: Function, header: Header) -> bool:
     kind = argument.type
-    if not kind.pointers and not any(call.name == kind.name for call in header.callbacks):
+    if not kind.pointers and not _is_callback(argument, header):
         return False
     if kind.name in ("msq_job", "msq_query_def"):
         return not function.name.startswith(("msq_job_", "msq_query_"))
-    return bool(re.search(rf"\b{argument.name}(?: and \w+)?(?: may be)? NULL\b", function.doc))
+    if argument.name == "user":  # a rule of the header; a callback of msq_io is a plain function
+        return function in header.callbacks or any(_is_callback(one, header)
+                                                   for one in function.arguments)
+    return bool(re.search(rf"\b{argument.name}(?: and \w+)?(?: (?:may|must) be)? NULL\b",
+                          function.doc))
+
+
+def _is_callback(argument: Member, header: Header) -> bool:
+    return any(call.name == argument.type.name for call in header.callbacks)
 
 
 STATEMENT = re.compile(r"""\s*(?:
