@@ -3,10 +3,10 @@
 // more), and the message is allocated with the first failure and freed with the thread. Where there
 // is no memory for that, the message is a constant that names the status alone.
 #include <cstdlib>
-#include <cstring>
 
 #include "api/guard.h"
 #include "base/attributes.h"
+#include "base/one_line.h"
 
 // The last of all: it defines words such as `near`.
 #ifdef _WIN32
@@ -84,45 +84,11 @@ const char* without_message(Status status) {
   return "out of memory for the message of this failure";
 }
 
-/// Bytes of the UTF-8 character that begins here; 0 if it is not one.
-size_t character_length(const unsigned char* s) {
-  const size_t length = s[0] < 0x80                   ? 1
-                        : s[0] >= 0xc2 && s[0] < 0xe0 ? 2
-                        : (s[0] & 0xf0) == 0xe0       ? 3
-                        : s[0] >= 0xf0 && s[0] < 0xf5 ? 4
-                                                      : 0;
-  for (size_t i = 1; i < length; ++i)
-    if ((s[i] & 0xc0) != 0x80) return 0;
-  if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) ||
-      (s[0] == 0xf0 && s[1] < 0x90) || (s[0] == 0xf4 && s[1] > 0x8f))
-    return 0;  // overlong, a surrogate, or beyond Unicode
-  return length;
-}
-
-/// Copies whole characters as far as they fit. Bytes that are none, as paths may have, become '?',
-/// and so do control characters, which names in files may have: a message is one line in any log or
-/// terminal.
-void copy_utf8(const char* from, char* to, size_t room) {
-  const auto* s = reinterpret_cast<const unsigned char*>(from);
-  size_t used = 0;
-  while (*s) {
-    const size_t length = character_length(s), taken = length ? length : 1;
-    if (used + taken >= room) break;
-    if (length && *s >= ' ' && *s != 0x7f)
-      std::memcpy(to + used, s, length);
-    else
-      to[used] = '?';
-    used += taken;
-    s += taken;
-  }
-  to[used] = 0;
-}
-
 }  // namespace
 
 msq_status record(Status status, const char* message, int32_t host_code) noexcept {
   if (char* room = message_room()) {
-    copy_utf8(message, room, message_bytes);
+    copy_one_line(message, room, message_bytes);
     last_error.message = room;
   } else {
     last_error.message = without_message(status);

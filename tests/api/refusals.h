@@ -110,6 +110,8 @@ static inline int refusal_ends(refusals* table, msq_status status) {
     memcpy(words, table->words, sizeof words);
     for (char* word = strtok(words, "|"); word; word = strtok(NULL, "|"))
       if (!strstr(msq_error_message(), word)) refusal_fails(table, word);
+    for (const char* c = msq_error_message(); *c; ++c)
+      if ((unsigned char)*c < ' ' || *c == 0x7f) refusal_fails(table, "not one line");
     if (memcmp(&written, &before, sizeof before) != 0) refusal_fails(table, "an output changed");
   }
   return status == MSQ_OK;

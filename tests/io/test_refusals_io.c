@@ -220,6 +220,7 @@ static void writers(void** state) {
     WRONG(ARGUMENT, "path is NULL", path = NULL);
     WRONG(ARGUMENT, "path is empty", path = "");
     WRONG(IO, "cannot create the folder|No such file", path = "none/none");
+    WRONG(IO, ": no?e/\xc3\xa9?", path = "no\ne/\xc3\xa9\xff");
     WRONG(IO, "not that of a folder", path = "/dev/null");
     RIGHT(writer_def = NULL);
     RIGHT(def = NULL);

@@ -5,9 +5,10 @@
 #include <charconv>
 #include <cstdarg>
 #include <cstdio>
-#include <cstring>
 #include <new>
 #include <system_error>
+
+#include "../../src/base/one_line.h"
 
 namespace msq_io {
 
@@ -16,20 +17,9 @@ namespace {
 // In thread-local storage without a destructor: a thread that ends frees it by itself.
 thread_local char last_message[512];
 
-/// Copies a message to 512 bytes, without the bytes of a last character that does not fit.
-void copy(const char* message, char (&to)[512]) {
-  size_t length = std::strlen(message);
-  if (length >= sizeof to) {
-    length = sizeof to - 1;
-    while (length > 0 && (static_cast<unsigned char>(message[length]) & 0xc0) == 0x80) --length;
-  }
-  std::memcpy(to, message, length);
-  to[length] = 0;
-}
-
 Failure failure_of(msq_status status, const char* message) {
   Failure failure{status, {}};
-  copy(message, failure.message);
+  msq::copy_one_line(message, failure.message, sizeof failure.message);
   return failure;
 }
 
@@ -62,7 +52,7 @@ std::string text_of(double value, int digits) {
 }
 
 msq_status record(msq_status status, const char* message) noexcept {
-  copy(message, last_message);
+  msq::copy_one_line(message, last_message, sizeof last_message);
   return status;
 }
 
