@@ -158,10 +158,10 @@ class Reader {
 
 }  // namespace
 
-double read_amf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup) {
+double read_amf(std::string_view file, UnpackLimit limit, SoupBuilder& soup) {
   std::string content;
   if (ZipPackage::is_zip(file)) {
-    ZipPackage zip(file, max_bytes, soup.job());
+    ZipPackage zip(file, limit, soup.job());
     const std::string name = zip.find_by_ending(".amf");
     std::optional<std::string> entry = zip.read(name);
     if (!entry) fail(Status::io, "AMF: the archive has no file in it");

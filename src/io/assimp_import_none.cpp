@@ -23,15 +23,15 @@ void import_with_assimp(std::string_view, const char*, SoupBuilder&) {
   refuse("binary STL");
 }
 
-double read_threemf(std::string_view, uint64_t, SoupBuilder&) {
+double read_threemf(std::string_view, UnpackLimit, SoupBuilder&) {
   refuse("3MF");
 }
 
-double read_threemf_beams(std::string_view, uint64_t, SoupBuilder&, std::vector<BeamLattice>&) {
+double read_threemf_beams(std::string_view, UnpackLimit, SoupBuilder&, std::vector<BeamLattice>&) {
   refuse("3MF");
 }
 
-double read_amf(std::string_view, uint64_t, SoupBuilder&) {
+double read_amf(std::string_view, UnpackLimit, SoupBuilder&) {
   refuse("AMF");
 }
 

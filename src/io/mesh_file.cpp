@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/mesh_file.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -52,10 +51,11 @@ Reservation reserve_reading(uint64_t bytes, const MeshFileOptions& options) {
                         : Reservation();
 }
 
-/// Maximum number of bytes that archives may unpack to.
-uint64_t max_unpacked(const MeshFileOptions& options) {
-  const uint64_t limit = options.budget ? options.budget->limit() : 0;
-  return limit ? std::min(options.max_bytes, limit / working_factor) : options.max_bytes;
+UnpackLimit unpack_limit(const MeshFileOptions& options) {
+  const uint64_t memory_limit = options.budget ? options.budget->limit() : 0;
+  if (memory_limit && memory_limit / working_factor < options.max_bytes)
+    return {memory_limit / working_factor, memory_limit};
+  return {options.max_bytes};
 }
 
 void check_size(uint64_t bytes, const MeshFileOptions& options) {
@@ -82,10 +82,10 @@ TriangleSoup read(std::string_view file, MeshFormat format, const MeshFileOption
       read_off(file, soup);
       break;
     case MeshFormat::threemf:
-      scale = read_threemf(file, max_unpacked(options), soup);
+      scale = read_threemf(file, unpack_limit(options), soup);
       break;
     case MeshFormat::amf:
-      scale = read_amf(file, max_unpacked(options), soup);
+      scale = read_amf(file, unpack_limit(options), soup);
       break;
     case MeshFormat::gltf:
       scale = read_gltf(file, soup);
@@ -113,7 +113,7 @@ BeamFile read_beams(std::string_view file, MeshFormat format, const MeshFileOpti
   SoupBuilder soup(options.max_triangles, options.part, file.size());
   BeamFile made;
   std::vector<BeamLattice> lattices;
-  const double unit = read_threemf_beams(file, max_unpacked(options), soup, lattices);
+  const double unit = read_threemf_beams(file, unpack_limit(options), soup, lattices);
   if (lattices.empty()) fail(Status::mesh, "the file has no beams");
   for (BeamLattice& lattice : lattices) {
     BeamLattice& scaled = made.lattices.emplace_back();

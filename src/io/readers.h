@@ -10,6 +10,7 @@
 
 #include "io/beam_lattice.h"
 #include "io/soup_builder.h"
+#include "io/zip_package.h"
 
 namespace msq {
 
@@ -17,12 +18,12 @@ void read_stl(std::string_view file, SoupBuilder& soup);
 void read_obj(std::string_view file, SoupBuilder& soup);
 void read_ply(std::string_view file, SoupBuilder& soup);
 void read_off(std::string_view file, SoupBuilder& soup);
-/// These return the file's unit in millimetres; those of archives unpack at most max_bytes.
-double read_threemf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup);
+/// These return the file's unit in millimetres; those of archives unpack within the limit.
+double read_threemf(std::string_view file, UnpackLimit limit, SoupBuilder& soup);
 /// Reads beam lattices, too, in the file's unit. Those that nothing clips are one.
-double read_threemf_beams(std::string_view file, uint64_t max_bytes, SoupBuilder& soup,
+double read_threemf_beams(std::string_view file, UnpackLimit limit, SoupBuilder& soup,
                           std::vector<BeamLattice>& lattices);
 double read_gltf(std::string_view file, SoupBuilder& soup);
-double read_amf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup);
+double read_amf(std::string_view file, UnpackLimit limit, SoupBuilder& soup);
 
 }  // namespace msq

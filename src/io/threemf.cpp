@@ -92,8 +92,8 @@ struct Reference {
 
 class Package {
  public:
-  Package(std::string_view file, uint64_t max_bytes, bool with_beams, SoupBuilder& soup)
-      : zip_(file, max_bytes, soup.job()), with_beams_(with_beams), soup_(soup) {}
+  Package(std::string_view file, UnpackLimit limit, bool with_beams, SoupBuilder& soup)
+      : zip_(file, limit, soup.job()), with_beams_(with_beams), soup_(soup) {}
 
   /// Adds the triangles of the build. Returns the unit in millimetres.
   double read() {
@@ -295,13 +295,13 @@ class Package {
 
 }  // namespace
 
-double read_threemf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup) {
-  return Package(file, max_bytes, false, soup).read();
+double read_threemf(std::string_view file, UnpackLimit limit, SoupBuilder& soup) {
+  return Package(file, limit, false, soup).read();
 }
 
-double read_threemf_beams(std::string_view file, uint64_t max_bytes, SoupBuilder& soup,
+double read_threemf_beams(std::string_view file, UnpackLimit limit, SoupBuilder& soup,
                           std::vector<BeamLattice>& lattices) {
-  Package package(file, max_bytes, true, soup);
+  Package package(file, limit, true, soup);
   const double unit = package.read();
   lattices = package.lattices();
   return unit;

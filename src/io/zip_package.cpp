@@ -87,10 +87,10 @@ struct ZipPackage::Archive {
   unzFile handle;
 };
 
-ZipPackage::ZipPackage(std::string_view file, uint64_t max_bytes, const Job* job)
+ZipPackage::ZipPackage(std::string_view file, UnpackLimit limit, const Job* job)
     : archive_(std::make_unique<Archive>(file)),
-      bytes_left_(max_bytes),
-      max_bytes_(max_bytes),
+      limit_(limit),
+      bytes_left_(limit.bytes),
       job_(job) {
   if (archive_->handle) return;
   // minizip gives no reason.
@@ -99,6 +99,17 @@ ZipPackage::ZipPackage(std::string_view file, uint64_t max_bytes, const Job* job
 }
 
 ZipPackage::~ZipPackage() = default;
+
+void ZipPackage::fail_large(const std::string& name, uint64_t bytes) const {
+  if (limit_.memory_limit)
+    fail(Status::limit,
+         "the zip entry \"%s\" unpacks to %llu bytes; the limit is %llu with the context's "
+         "memory_limit of %llu",
+         Quoted(name).text, static_cast<Count>(bytes), static_cast<Count>(limit_.bytes),
+         static_cast<Count>(limit_.memory_limit));
+  fail(Status::limit, "the zip entry \"%s\" unpacks to %llu bytes; max_bytes is %llu",
+       Quoted(name).text, static_cast<Count>(bytes), static_cast<Count>(limit_.bytes));
+}
 
 std::optional<std::string> ZipPackage::read(const std::string& name) {
   constexpr int ignoring_case = 2;
@@ -112,10 +123,7 @@ std::optional<std::string> ZipPackage::read(const std::string& name) {
   const std::optional<Zip64Entry> zip64 =
       read_zip64_entry(archive_->source.content, unzGetOffset64(handle));
   if (zip64) info.uncompressed_size = zip64->unpacked;
-  if (info.uncompressed_size > bytes_left_)
-    fail(Status::limit, "the zip entry \"%s\" unpacks to %llu bytes; max_bytes is %llu",
-         Quoted(name).text, static_cast<Count>(info.uncompressed_size),
-         static_cast<Count>(max_bytes_));
+  if (info.uncompressed_size > bytes_left_) fail_large(name, info.uncompressed_size);
   if (zip64) {
     std::optional<std::string> unpacked = unpack(archive_->source.content, *zip64, job_);
     if (!unpacked) fail(Status::io, "the zip entry \"%s\" is damaged", Quoted(name).text);

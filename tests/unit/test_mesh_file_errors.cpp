@@ -196,7 +196,12 @@ void refuses_archives_that_unpack_to_too_much(void**) {
   assert_true(bomb.size() < 10000);
   MeshFileOptions options = options_for(MeshFormat::threemf);
   options.max_bytes = 2999999;
-  assert_fails([&] { read(bomb, options); }, Status::limit, {"3000", "2999999"});
+  assert_fails([&] { read(bomb, options); }, Status::limit, {"3000", "max_bytes is 2999999"});
+  options.budget = std::make_shared<msq::MemoryBudget>(8 * 2500000);
+  assert_fails([&] { read(bomb, options); }, Status::limit,
+               {"3000", "the limit is 2500000", "memory_limit of 20000000"});
+  options.budget = std::make_shared<msq::MemoryBudget>(8 * 2999999);
+  assert_fails([&] { read(bomb, options); }, Status::limit, {"3000", "max_bytes is 2999999"});
   options.format = MeshFormat::amf;
   options.max_bytes = 1000000;
   assert_fails(
