@@ -51,9 +51,7 @@ ContourPlan read_plan(const msq_contours_def& def) {
   plan.tolerance = require_positive(def.tolerance, "tolerance");
   if (def.pitch != 0) plan.pitch = require_positive(def.pitch, "pitch");
   plan.units = require_positive(def.units, "units");
-  if (!(def.length_scale >= 0))
-    fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
-  plan.length_scale = def.length_scale;
+  plan.length_scale = require_zero_or_more(def.length_scale, "length_scale");
   plan.topology_samples = def.topology_samples;
   if (plan.topology_samples != 0 && plan.topology_samples != 2 && plan.topology_samples != 4 &&
       plan.topology_samples != 8 && plan.topology_samples != 16)

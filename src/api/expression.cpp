@@ -24,6 +24,7 @@ Tape read_expression(const char* text, const msq_named_value* parameters,
     named.push_back({std::string(name, strnlen(name, max_expression_bytes)),
                      require_finite(parameters[i].value, "the value of a parameter")});
   }
+  // One byte more, so that a text that is too long is refused.
   return parse_expression({text, strnlen(text, max_expression_bytes + 1)}, named);
 }
 

@@ -73,13 +73,13 @@ msq_status msq_field_gradient(msq_context* context, const double from[3], double
     require_finite(from_value, "from_value");
     require_finite(to_value, "to_value");
     require(field, "field");
-    // Less squares to what has no 53 bits.
+    // Less squares to what has no 53 bits, more to what is not finite.
     constexpr double min_length = 1e-140;
     const double length_squared = dot(b - a, b - a);
     if (!(length_squared >= min_length * min_length) || !std::isfinite(length_squared))
       fail(Status::argument,
-           "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ, by %g at least",
-           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared), min_length);
+           "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must be %g to 1.3e154 apart",
+           a.x, a.y, a.z, b.x, b.y, b.z, std::hypot(b.x - a.x, b.y - a.y, b.z - a.z), min_length);
     require_difference(from_value, to_value, "values");
     *field = defined_handle<msq_field>(
         make_ref<GradientField>(a, from_value, b, to_value),

@@ -81,6 +81,12 @@ inline double require_not_negative(double value, const char* name) {
   return value;
 }
 
+/// Infinity is allowed.
+inline double require_zero_or_more(double value, const char* name) {
+  if (!(value >= 0)) fail(Status::argument, "%s is %g; it must be 0 or more", name, value);
+  return value;
+}
+
 inline double require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value))
     fail(Status::argument, "%s is %g; it must be positive and finite", name, value);

@@ -49,10 +49,4 @@ inline std::function<Interval(const Box3&)> range_call(msq_range_fn fn, void* us
   };
 }
 
-/// A Lipschitz constant, infinite where unknown.
-inline double require_lipschitz(double value) {
-  if (!(value >= 0)) fail(Status::argument, "lipschitz is %g; it must not be negative", value);
-  return value;
-}
-
 }  // namespace msq::api

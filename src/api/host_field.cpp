@@ -31,10 +31,10 @@ msq_status msq_field_host(msq_context* context, const msq_host_field_def* def, m
     if (range.low > range.high)
       fail(Status::argument, "low is %g and high is %g; low must not be greater", range.low,
            range.high);
-    Ref<HostField> made =
-        make_ref<HostField>(HostFieldCalls{values_call(known.evaluate, known.user, "evaluate"),
-                                           range_call(known.range, known.user, "range")},
-                            range, require_lipschitz(known.lipschitz), is_concurrent);
+    Ref<HostField> made = make_ref<HostField>(
+        HostFieldCalls{values_call(known.evaluate, known.user, "evaluate"),
+                       range_call(known.range, known.user, "range")},
+        range, require_zero_or_more(known.lipschitz, "lipschitz"), is_concurrent);
     made->user().set_key(known.hash_key);
     made->user().own(known.user, known.release);
     *field = new_handle<msq_field>(Ref<Field>(std::move(made)));

@@ -140,7 +140,8 @@ msq_status msq_structure_host_function(msq_context* context, const msq_host_func
         HostFunctionCalls{values_call(known.evaluate, known.user, "evaluate"),
                           range_call(known.range, known.user, "range")},
         known.kind == MSQ_FUNCTIONAL_SHEET, read_level(known.level, known.kind),
-        static_cast<int>(known.clusters), require_lipschitz(known.lipschitz), is_concurrent);
+        static_cast<int>(known.clusters), require_zero_or_more(known.lipschitz, "lipschitz"),
+        is_concurrent);
     made->user().set_key(known.hash_key);
     made->user().own(known.user, known.release);
     *structure = new_handle<msq_structure>(Ref<Structure>(std::move(made)));

@@ -116,10 +116,8 @@ void require_finite_points(const PointSet& points, const Executor& executor) {
 
 Query read_query(const msq_query_def* query) {
   const msq_query_def known = query ? read_def(query, query_defaults(), "query") : query_defaults();
-  if (!(known.length_scale >= 0))
-    fail(Status::argument, "length_scale is %g; it must not be negative", known.length_scale);
   Query read;
-  read.length_scale = known.length_scale;
+  read.length_scale = require_zero_or_more(known.length_scale, "length_scale");
   read.plan.method = static_cast<QueryMethod>(
       require_range(known.method, MSQ_QUERY_AUTO, MSQ_QUERY_SET, "method"));
   read.plan.critical_count = known.critical_count;

@@ -135,9 +135,7 @@ SlicePlan read_plan(const msq_slicer_def& def) {
   }
   plan.layer_count = def.layer_count;
   plan.slab_layers = def.slab_layers;
-  if (!(def.length_scale >= 0))
-    fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
-  plan.length_scale = def.length_scale;
+  plan.length_scale = require_zero_or_more(def.length_scale, "length_scale");
   plan.window = read_window(def.window);
   plan.orientation = read_orientation(def.orientation);
   plan.has_region = require_range(def.has_region, 0, 1, "has_region") != 0;

@@ -28,9 +28,7 @@ MeshPlan read_plan(const msq_surface_def& def) {
              plan.box.min[axis], plan.box.max[axis], axis);
   }
   plan.pitch = require_positive(def.pitch, "pitch");
-  if (!(def.length_scale >= 0))
-    fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
-  plan.length_scale = def.length_scale;
+  plan.length_scale = require_zero_or_more(def.length_scale, "length_scale");
   plan.slab_layers = def.slab_layers;
   require_reserved(def.reserved, "reserved");
   return plan;

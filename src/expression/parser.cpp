@@ -264,8 +264,7 @@ class Parser {
 
 Tape parse_expression(std::string_view text, const std::vector<NamedValue>& parameters) {
   if (text.size() > max_expression_bytes)
-    fail(Status::limit, "expression has %zu characters; the limit is %zu", text.size(),
-         max_expression_bytes);
+    fail(Status::limit, "expression has more than %zu bytes", max_expression_bytes);
   for (size_t i = 0; i < parameters.size(); ++i) {
     const std::string& name = parameters[i].name;
     if (!is_name(name))

@@ -79,7 +79,8 @@ static void slicers(void** state) {
     for (int i = 0; i < 4; ++i)
       WRONG(ARGUMENT, words_of("layer_height|%s", height_texts[i]), def->layer_height = heights[i]);
     for (int i = 0; i < 3; ++i)
-      WRONG(ARGUMENT, words_of("length_scale|%s", length_texts[i]), def->length_scale = lengths[i]);
+      WRONG(ARGUMENT, words_of("length_scale is %s; it must be 0 or more", length_texts[i]),
+            def->length_scale = lengths[i]);
     WRONG(LIMIT, "2147483648|2147483647", def->layer_count = (uint64_t)1 << 31);
     WRONG(LIMIT, "18446744073709551615", def->layer_count = UINT64_MAX);
     WRONG(LIMIT, "1e+12|2147483647", def->layer_height = 4e-12);
@@ -405,7 +406,7 @@ static void contours(void** state) {
     WRONG(ARGUMENT, "pitch is -1", def->pitch = -1);
     wrong_number(table, &def->pitch, "pitch is ");
     WRONG(ARGUMENT, "units is 0", def->units = 0);
-    WRONG(ARGUMENT, "length_scale is -2", def->length_scale = -2);
+    WRONG(ARGUMENT, "length_scale is -2; it must be 0 or more", def->length_scale = -2);
     WRONG(LIMIT, "the limit is 2147483392", def->tolerance = 1e-9);
     WRONG(LIMIT, "memory_limit", model = plain_of_small);
     WRONG(ARGUMENT, "has_window is 0", model = everywhere);

@@ -117,7 +117,7 @@ static void functions(void** state) {
     WRONG(ARGUMENT, "character 12|'q'", def->expression = "sin(x)+cos(q)");
     WRONG(ARGUMENT, "character 1", def->expression = "");
     WRONG(ARGUMENT, "expression is NULL", def->expression = NULL);
-    WRONG(LIMIT, "65536", def->expression = text);
+    WRONG(LIMIT, "expression has more than 65536 bytes", def->expression = text);
     WRONG(LIMIT, "nested deeper than 100", text[4000] = 0; def->expression = text);
     WRONG(ARGUMENT, "parameters is NULL", def->parameters = NULL);
     WRONG(ARGUMENT, "parameter 1 is NULL", values[1].name = NULL);

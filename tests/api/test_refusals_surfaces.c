@@ -41,7 +41,7 @@ static void wrong_surface(refusals* table, msq_surface_def* def, const msq_model
   WRONG(ARGUMENT, "pitch is -1", def->pitch = -1);
   wrong_number(table, &def->pitch, "pitch is ");
   WRONG(ARGUMENT, "length_scale is -2", def->length_scale = -2);
-  WRONG(ARGUMENT, "length_scale is nan", def->length_scale = NAN);
+  WRONG(ARGUMENT, "length_scale is nan; it must be 0 or more", def->length_scale = NAN);
   WRONG(ARGUMENT, "reserved is 9", def->reserved = 9);
   RIGHT(def->slab_layers = UINT32_MAX);
   WRONG(LIMIT, "the limit is 2147483392", def->pitch = 1e-9);

@@ -75,7 +75,7 @@ static inline void wrong_query(refusals* table, msq_query_def* query) {
   wrong_sizes(table, query, offsetof(msq_query_def, critical_count), sizeof *query);
   WRONG(ARGUMENT, "struct_size of query is 4", query->struct_size = 4);
   WRONG(ARGUMENT, "length_scale|-0.5", query->length_scale = -0.5);
-  WRONG(ARGUMENT, "length_scale|nan", query->length_scale = NAN);
+  WRONG(ARGUMENT, "length_scale is nan; it must be 0 or more", query->length_scale = NAN);
   WRONG(ARGUMENT, "length_scale|-inf", query->length_scale = -INFINITY);
   wrong_enum(table, &query->method, "method", 0, 2);
   WRONG(ARGUMENT, "group_parts is 65", query->group_parts = 65);

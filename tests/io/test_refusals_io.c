@@ -166,7 +166,9 @@ static void files(void** state) {
     WRONG(ARGUMENT, "2 x 0", height = 0);
     WRONG(ARGUMENT, "channels is 2", channels = 2);
     WRONG(ARGUMENT, "stride is 5 bytes; a row has 6", stride = 5);
-    WRONG(LIMIT, "40000 x 40000|the limit is 2147483647", width = height = 40000);
+    WRONG(LIMIT, "40000 x 40000|has 4800040000 bytes|the limit is 2147483647",
+          width = height = 40000);
+    WRONG(LIMIT, "has 1.8446744075857e+19 bytes", width = height = 2147483648u; channels = 4);
     WRONG(LIMIT, "2147483648", width = 2147483648u);
     WRONG(ARGUMENT, "pixels is NULL", at = NULL);
     (void)TRY(msq_io_picture_save(path, width, height, channels, at, stride, replace));

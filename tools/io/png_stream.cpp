@@ -148,8 +148,10 @@ void copy_rows(const PngRows& image, const uint8_t* pixels, uint64_t stride,
                std::vector<uint8_t>& rows) {
   const uint64_t row = image.row_bytes();
   if (image.width > 0x7fffffff || image.height > 0x7fffffff || image.bytes() > 0x7fffffff)
-    fail(MSQ_E_LIMIT, "a picture of %u x %u pixels has %llu bytes; the limit is 2147483647",
-         image.width, image.height, static_cast<unsigned long long>(image.bytes()));
+    fail(MSQ_E_LIMIT, "a picture of %u x %u pixels has %s bytes; the limit is 2147483647",
+         image.width, image.height,
+         // As a double: it may be more than 64 bits hold.
+         text_of(static_cast<double>(row) * image.height, 15).c_str());
   rows.resize(image.bytes());
   for (uint64_t y = 0; y < image.height; ++y) {
     uint8_t* to = rows.data() + y * row;
