@@ -30,7 +30,8 @@ KIND_BASE = {"foam": {"foam_data.h", "foam_graph.h"}, "lattice": set()}
 OUTSIDE = [
     (r"msq\.h", ["api/*", "document/*"]),
     # Files that are compiled once for each target include these themselves, between their own lines.
-    (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "shape/*.cpp", "strut/*.cpp",
+    (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "shape/*.cpp",
+                         "shape/*-inl.h", "strut/*.cpp",
                          "strut/*-inl.h", "slice/*.cpp", "printability/*.cpp",
                          "printability/*-inl.h", "structure/*/*.cpp", "structure/*/*-inl.h",
                          "structure/*/*/*.cpp", "structure/*/*/*-inl.h", "expression/*.cpp",
