@@ -323,6 +323,13 @@ void Disc::add(int row, Length length) {
   rows.push_back({row, index});
 }
 
+void Disc::move(int column, int row) {
+  for (Length& each : lengths) each.first += column;
+  for (Row& each : rows) each.row += row;
+  low += row;
+  high += row;
+}
+
 namespace {
 
 Disc disc_of_block(const unsigned across[2], double scale) {
@@ -362,8 +369,15 @@ Disc disc_around_sample(double distance, const double pitch[2]) {
 
 }  // namespace
 
+// Places are samples of the layer, so the first column and row of the disc are its place's: the
+// block's may be outside where the disc fits.
 ThinSamples::ThinSamples(const unsigned across[2])
-    : disc_(disc_of_block(across, 1)), wide_(disc_of_block(across, 2)) {}
+    : disc_(disc_of_block(across, 1)), wide_(disc_of_block(across, 2)) {
+  int column = disc_.lengths[0].first;
+  for (const Disc::Length& each : disc_.lengths) column = std::min(column, each.first);
+  const int row = disc_.low;
+  for (Disc* disc : {&disc_, &wide_}) disc->move(-column, -row);
+}
 
 void ThinSamples::find(const LayerRows& layer, uint64_t begin, uint64_t end, uint64_t* scratch,
                        uint64_t* out) const {

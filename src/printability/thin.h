@@ -32,6 +32,8 @@ struct Disc {
 
   /// Adds a row.
   void add(int row, Length length);
+  /// Moves its samples.
+  void move(int column, int row);
   size_t row_count() const { return static_cast<size_t>(high - low + 1); }
   /// Rows of a layer of which lines are kept.
   size_t kept_rows() const { return row_count() + 32; }

@@ -2,6 +2,7 @@
  * The calls here would take minutes if they were not cancelled: the test's time limit says that
  * cancelling is soon. */
 #define _POSIX_C_SOURCE 200809L
+#include <math.h>
 #include <time.h>
 
 #include "definitions.h"
@@ -171,6 +172,59 @@ static void another_thread_cancels_a_grid_query(void** state) {
   msq_context_release(context);
 }
 
+typedef struct cancelling_field {
+  msq_job* job;
+  uint64_t asked; /* points since the job was cancelled */
+} cancelling_field;
+
+static int32_t cancel_and_count(void* user, const double* points, uint64_t count, double* values) {
+  cancelling_field* field = (cancelling_field*)user;
+  field->asked += count;
+  for (uint64_t i = 0; i < count; ++i) values[i] = 0.2 + 0.1 * sin(40 * points[3 * i]);
+  return field->job && msq_job_cancel(field->job) != MSQ_OK ? -1 : 0;
+}
+
+/* Few struts in many samples, whose radii are those of a field without bounds. */
+static void lattices_of_large_struts_stop_soon(void** state) {
+  msq_context* context = make_context_of(1, 0, 0);
+  const double rotation[9] = {0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1};
+  cancelling_field counts = {NULL, 0};
+  msq_host_field_def field_def;
+  msq_field* field;
+  msq_lattice_def def;
+  msq_structure* lattice;
+  msq_model* model;
+  msq_slicer* slicer;
+  const msq_slicer_def slices = slicer_def(MSQ_LAYER_BITS, 400, 400, 0.5);
+  layer_stack stack;
+  (void)state;
+  assert_ok(msq_host_field_def_init(&field_def, sizeof field_def));
+  field_def.evaluate = cancel_and_count;
+  field_def.user = &counts;
+  field_def.low = 0.1;
+  field_def.high = 0.3;
+  assert_ok(msq_field_host(context, &field_def, &field));
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.unit_cell = MSQ_UNIT_CELL_OCTET;
+  def.radius.field = field;
+  set_cell(&def.grid, 2);
+  memcpy(def.grid.rotation, rotation, sizeof rotation);
+  assert_ok(msq_structure_lattice(context, &def, &lattice));
+  model = make_model(context, make_box(context), lattice, NULL);
+  slicer = make_slicer(model, &slices);
+  stack = make_stack(slicer, MSQ_LAYER_BITS, 0, 0);
+  counts.job = make_job();
+  assert_refused(msq_slicer_run(slicer, 0, 1, take_layer, &stack, counts.job), MSQ_E_CANCELLED,
+                 "cancelled");
+  if (counts.asked > 1000) fail_msg("%llu points", (unsigned long long)counts.asked);
+  free_stack(&stack);
+  msq_job_release(counts.job);
+  msq_slicer_release(slicer);
+  msq_model_release(model);
+  msq_field_release(field);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(calls_under_a_cancelled_job_stop_at_once),
@@ -179,6 +233,7 @@ int main(void) {
       cmocka_unit_test(another_thread_cancels_within_a_layer_of_point_foam),
       cmocka_unit_test(another_thread_cancels_within_a_layer_of_direct_foam),
       cmocka_unit_test(another_thread_cancels_a_grid_query),
+      cmocka_unit_test(lattices_of_large_struts_stop_soon),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,16 +64,23 @@ static msq_shape* join(int32_t operation, msq_shape** shapes, uint64_t count) {
   return joined;
 }
 
-/* Pixels and layers of 0.25. Takes over the shape. */
-static msq_slicer* slicer_of(msq_context* context, msq_shape* shape) {
+/* Layers of 0.25. Takes over the shape. */
+static msq_slicer* slicer_with_pixels(msq_context* context, msq_shape* shape, double x, double y) {
   msq_model* model = make_shape_model(context, shape);
   msq_slicer_def def;
   msq_slicer* slicer;
   assert_ok(msq_slicer_def_init(&def, sizeof def));
-  def.pitch[0] = def.pitch[1] = def.layer_height = 0.25;
+  def.pitch[0] = x;
+  def.pitch[1] = y;
+  def.layer_height = 0.25;
   slicer = make_slicer(model, &def);
   msq_model_release(model);
   return slicer;
+}
+
+/* With pixels of 0.25. */
+static msq_slicer* slicer_of(msq_context* context, msq_shape* shape) {
+  return slicer_with_pixels(context, shape, 0.25, 0.25);
 }
 
 static void assert_box(const msq_finding* found, double x0, double y0, double z0, double x1,
@@ -234,6 +241,23 @@ static void of_equal_parts_the_first_is_kept(void** state) {
     assert_int_equal(inspect(slicer, &def, &list).loose_count, 1);
     assert_box(&list.findings[0], loose[0], loose[1], loose[2], loose[0] + 2, loose[1] + 2,
                loose[2] + 3);
+    msq_slicer_release(slicer);
+  }
+  msq_context_release(context);
+}
+
+/* The disc has 6 x 2 of the 8 x 2 pixels across it. A bar of these holds it, though a pixel of the
+ * 8 would lie before the grid. */
+static void discs_begin_at_the_grids_sides(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double size[2] = {axis ? 2 : 1.5, axis ? 1.5 : 2};
+    msq_slicer* slicer = slicer_with_pixels(context, box_of(context, 0, 0, 0, size[0], size[1], 1),
+                                            axis ? 1 : 0.25, axis ? 0.25 : 1);
+    msq_printability_def def = printability_def(MSQ_FINDING_THIN, 1);
+    def.width = 2;
+    assert_int_equal(inspect(slicer, &def, &list).thin_count, 0);
     msq_slicer_release(slicer);
   }
   msq_context_release(context);
@@ -527,6 +551,7 @@ int main(void) {
       cmocka_unit_test(hanging_parts_are_islands),
       cmocka_unit_test(only_the_largest_part_counts_without_a_plate),
       cmocka_unit_test(of_equal_parts_the_first_is_kept),
+      cmocka_unit_test(discs_begin_at_the_grids_sides),
       cmocka_unit_test(thin_walls_are_found),
       cmocka_unit_test(cups_close_while_they_print),
       cmocka_unit_test(overhangs_reach_beyond_the_layer_below),
