@@ -17,8 +17,7 @@ from ._handle import Handle, hash_of, pointers
 from ._host import HashKey, HostPoints, create
 from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib
-from .context import (Context, Job, MadeIn, context_of, doubles, record, c_text, triple,
-                      unsigned)
+from .context import Context, Job, MadeIn, context_of, doubles, record, c_text, triple, unsigned
 from .field import Param, set_param, set_parameters
 from .fill import Fill
 from .points import Stratified, definition_of
