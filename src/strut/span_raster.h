@@ -133,9 +133,7 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
   uint32_t strut = UINT32_MAX;
   Vec3 a, ab, slope;
   double inverse_squared = 0;
-  CancelPoll poll(current_job());
   for (size_t n = 0; n < doubtful_.size(); ++n) {
-    poll();
     prefetch(n + doubts_ahead);
     const DoubtfulSpan& span = doubtful_[n];
     if (span.strut != strut) {
