@@ -19,9 +19,8 @@ constexpr uint64_t columns_beyond = 16;
 
 }  // namespace
 
-ContourAxis::ContourAxis(double low, double high, double pitch, const char* name)
-    : low_(low), high_(high), pitch_(pitch), inverse_pitch_(1 / pitch) {
-  constexpr double max_nodes = 0x1p31 - 256, max_index = 0x1p40, shift = 0.3125;
+void ContourAxis::check(double low, double high, double pitch, const char* name) {
+  constexpr double max_nodes = 0x1p31 - 256, max_index = 0x1p40;
   const double nodes = (high - low) / pitch;
   if (!(nodes < max_nodes))
     fail(Status::limit, "%g nodes of a pitch of %g along %s; the limit is %.0f", nodes, pitch, name,
@@ -31,6 +30,11 @@ ContourAxis::ContourAxis(double low, double high, double pitch, const char* name
     fail(Status::limit,
          "the window reaches %g pitches of %g from the origin along %s; the limit is %g", far,
          pitch, name, max_index);
+}
+
+ContourAxis::ContourAxis(double low, double high, double pitch)
+    : low_(low), high_(high), pitch_(pitch), inverse_pitch_(1 / pitch) {
+  constexpr double shift = 0.3125;
   // Whole numbers below 2^41 times three digits: exact.
   const auto node = [&](double k) { return (k + shift) * pitch; };
   double k = std::floor(low / pitch);
@@ -42,11 +46,17 @@ ContourAxis::ContourAxis(double low, double high, double pitch, const char* name
   }
 }
 
+void ContourGrid::check(LayerPlane plane, const double window_min[2], const double window_max[2],
+                        double pitch) {
+  ContourAxis::check(window_min[0], window_max[0], pitch, plane.u_axis() == 0 ? "x" : "y");
+  ContourAxis::check(window_min[1], window_max[1], pitch, plane.v_axis() == 1 ? "y" : "z");
+}
+
 ContourGrid::ContourGrid(LayerPlane plane, const double window_min[2], const double window_max[2],
                          double pitch)
     : plane_(plane),
-      u_(window_min[0], window_max[0], pitch, plane.u_axis() == 0 ? "x" : "y"),
-      v_(window_min[1], window_max[1], pitch, plane.v_axis() == 1 ? "y" : "z"),
+      u_(window_min[0], window_max[0], pitch),
+      v_(window_min[1], window_max[1], pitch),
       pitch_(pitch),
       row_words_(words_for(uint64_t{right_edge()} + 2 + columns_beyond)) {}
 

@@ -28,11 +28,17 @@ namespace msq {
 /// A plane normal to an axis. Its coordinates (u, v) are the other two, in their order.
 struct LayerPlane {
   int axis = 2;
-  double height = 0;
+  double height = 0;  ///< in the model's unit
+  /// The length that u and v count: a power of two, so coordinates have the same digits in any
+  /// unit. Contours have one near the pitch: then products of many lengths, such as the eighth
+  /// powers of find_bends(), neither overflow nor underflow.
+  double unit = 1;
 
   int u_axis() const { return axis == 0 ? 1 : 0; }
   int v_axis() const { return axis == 2 ? 1 : 2; }
   Vec3 at(double u, double v) const {
+    u *= unit;
+    v *= unit;
     return axis == 0 ? Vec3{height, u, v} : axis == 1 ? Vec3{u, height, v} : Vec3{u, v, height};
   }
 };
@@ -46,7 +52,10 @@ class ContourAxis {
  public:
   /// Throws Error(limit) if there would be 2^31 nodes or more, or if the coordinates have too few
   /// digits for them.
-  ContourAxis(double low, double high, double pitch, const char* name);
+  static void check(double low, double high, double pitch, const char* name);
+
+  /// Of what check() passes, in any unit.
+  ContourAxis(double low, double high, double pitch);
 
   double low() const { return low_; }
   double high() const { return high_; }
@@ -100,6 +109,11 @@ class PlaneStruts;
 
 class ContourGrid {
  public:
+  /// See ContourAxis::check().
+  static void check(LayerPlane plane, const double window_min[2], const double window_max[2],
+                    double pitch);
+
+  /// The window and the pitch are in the plane's unit.
   ContourGrid(LayerPlane plane, const double window_min[2], const double window_max[2],
               double pitch);
 

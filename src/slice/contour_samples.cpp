@@ -30,7 +30,8 @@ void for_sample_rows(const Model& model, const Scales& resolved, const LayerPlan
   const bool is_x = plane.axis == 0, is_z = plane.axis == 2;
   SampleGrid grid;
   grid.origin = plane.at(block.u, block.v);
-  grid.spacing = LayerPlane{plane.axis, block.v_step}.at(block.u_step, block.v_step);
+  grid.spacing =
+      LayerPlane{plane.axis, block.v_step * plane.unit, plane.unit}.at(block.u_step, block.v_step);
   grid.nx = is_x ? 1 : block.across;
   grid.ny = is_z ? block.rows : is_x ? block.across : 1;
   grid.nz = is_z ? 1 : block.rows;

@@ -40,10 +40,11 @@ PlaneStruts::PlaneStruts(const Structure& structure, const ContourGrid& grid, do
       v_{grid.v_nodes().low() - around, grid.v_nodes().high() + around, 0, 1} {
   const LayerPlane& plane = grid.plane();
   // The rounding of positions is a few units of 2^-53.
-  margin_ = strut_error * max_component(structure.neighbourhood().cell_size) +
-            0x1p-40 * (max_magnitude(plane.at(u_.low, v_.low)) +
-                       max_magnitude(plane.at(u_.high, v_.high)) +
-                       max_magnitude(structure.neighbourhood().origin));
+  margin_ = (strut_error * max_component(structure.neighbourhood().cell_size) +
+             0x1p-40 * (max_magnitude(plane.at(u_.low, v_.low)) +
+                        max_magnitude(plane.at(u_.high, v_.high)) +
+                        max_magnitude(structure.neighbourhood().origin))) /
+            plane.unit;
   // A disc whose diameter is the diagonal of a cell holds a node.
   holds_node_ = 0.5 * grid.pitch() * grid.pitch();
   memory_->struts.clear();
@@ -56,7 +57,7 @@ PlaneStruts::PlaneStruts(const Structure& structure, const ContourGrid& grid, do
 
 void PlaneStruts::add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius) {
   const Vec3 d = b - a;
-  const double w = plane.height - a[plane.axis], d_w = d[plane.axis];
+  const double w = plane.height / plane.unit - a[plane.axis], d_w = d[plane.axis];
   double from = 0, to = 1;
   if (d_w != 0) {
     const double p = (w - radius) / d_w, q = (w + radius) / d_w;
@@ -92,12 +93,12 @@ void PlaneStruts::collect(const Structure& structure, const LayerPlane& plane, c
   const auto& turn = structure.neighbourhood().rotation.m;
   const bool is_turned = std::any_of(std::begin(turn), std::end(turn),
                                      [](double m) { return m != 0 && std::abs(m) != 1; });
-  const double side = is_turned ? max_cells_of_tile * structure.cell_length()
+  const double side = is_turned ? max_cells_of_tile * structure.cell_length() / plane.unit
                                 : std::numeric_limits<double>::infinity();
   const auto tiles = [&](const Squares& axis) {
     return std::max(1.0, std::ceil((axis.high - axis.low) / side));
   };
-  const double across = tiles(u_), up = tiles(v_);
+  const double across = tiles(u_), up = tiles(v_), inverse_unit = 1 / plane.unit;
   for (double j = 0; j < up; ++j)
     for (double i = 0; i < across; ++i) {
       const auto part = [&](const Squares& axis, double n) {
@@ -106,8 +107,11 @@ void PlaneStruts::collect(const Structure& structure, const LayerPlane& plane, c
       const Vec3 low = plane.at(part(u_, i), part(v_, j));
       const Vec3 high = plane.at(part(u_, i + 1), part(v_, j + 1));
       structure.for_each_strut(
-          Box3{low, high}.grown(margin_),
-          [&](Vec3 a, Vec3 b, double radius) { add(plane, a, b, radius); }, job);
+          Box3{low, high}.grown(margin_ * plane.unit),
+          [&](Vec3 a, Vec3 b, double radius) {
+            add(plane, a * inverse_unit, b * inverse_unit, radius * inverse_unit);
+          },
+          job);
     }
 }
 

@@ -27,7 +27,8 @@ namespace msq {
 
 class PlaneStruts {
  public:
-  /// Finds the struts that may hold points of the grid's window or within `around` of it.
+  /// Finds the struts that may hold points of the grid's window or within `around` of it. Lengths
+  /// are in the unit of the grid's plane.
   PlaneStruts(const Structure& structure, const ContourGrid& grid, double around,
               std::shared_ptr<MemoryBudget> budget, const Job* job);
 
@@ -67,7 +68,7 @@ class PlaneStruts {
   };
 
   void collect(const Structure& structure, const LayerPlane& plane, const Job* job);
-  void add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius);
+  void add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius);  // in the plane's unit
   void set_squares(double min_side);
   void sort(const Job* job);
   void list_by_square(const Job* job);

@@ -227,6 +227,99 @@ void check_units(const ContourPlan& plan, double pitch, const double low[2], con
              limit);
 }
 
+/// The unit of LayerPlane: near the pitch, or near the window's size if that is less. So the unit
+/// times the plan's units does not overflow if the window's coordinates times these do not.
+double plane_unit(double pitch, double size) {
+  constexpr int max_exponent = 1000;  // then the inverse is in range, too
+  int exponent;
+  std::frexp(std::min(pitch, size), &exponent);
+  return std::ldexp(1, std::clamp(exponent - 2, -max_exponent, max_exponent));
+}
+
+/// The window of a layer and what its grid needs.
+struct WindowGrid {
+  double low[2], high[2];
+  double pitch, margin;
+};
+
+/// The same in another unit of the plane.
+ContourPlan in_unit(ContourPlan plan, double unit) {
+  plan.plane.unit = unit;
+  plan.tolerance /= unit;
+  plan.units *= unit;
+  return plan;
+}
+WindowGrid in_unit(WindowGrid grid, double unit) {
+  for (double* x :
+       {&grid.low[0], &grid.low[1], &grid.high[0], &grid.high[1], &grid.pitch, &grid.margin})
+    *x /= unit;
+  return grid;
+}
+
+/// All lengths of the plane are in its unit.
+void find_contours(const Model& model, const Scales& resolved, const ContourPlan& plan,
+                   const WindowGrid& at, Contours& out, Job* job) {
+  const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
+  const double pitch = at.pitch, margin = at.margin;
+  ContourGrid grid(plan.plane, at.low, at.high, pitch);
+  const Reservation nodes(budget, grid.bytes(model, resolved), "the nodes of a layer");
+  ContourPoints points(model, resolved, plan.plane, job);
+  std::optional<LayerStruts> struts;
+  if (gives_struts(resolved, pitch * plan.plane.unit)) {
+    const Structure& structure = *resolved[0]->structure;
+    // Points lie in the window, however large the tolerance is.
+    const double size = std::max(at.high[0] - at.low[0], at.high[1] - at.low[1]);
+    struts.emplace(model, structure, grid, 2 * std::min(plan.tolerance, size), job);
+    points.use_struts(struts->all);
+    // Else rows of lattices cost less.
+    if (structure.gains_by_layers())
+      grid.find_nodes(struts->all, struts->shape, points);
+    else
+      grid.find_nodes(model, resolved, job);
+  } else {
+    grid.find_nodes(model, resolved, job);
+  }
+  if (job) job->set_progress(0.25);
+
+  // Half of the tolerance is for what the boundary does between crossings, half for leaving points
+  // out.
+  const double part = 0.5 * plan.tolerance;
+  ContourSection section(grid, margin);
+  // Of a ring, gates may be there twice, and three times the points.
+  constexpr uint64_t bytes = ContourSection::bytes_of_crossing + 2 * sizeof(LineGate) +
+                             2 * sizeof(Vec2) + 3 * sizeof(Vec2);
+  const Reservation edges(budget, ContourSection::bytes_of_edges(grid), "the edges of a layer");
+  const uint64_t crossing_count = section.count_crossings(job);
+  const Reservation crossings(budget, crossing_count * bytes + ContourRings::bytes(crossing_count),
+                              "the crossings of a layer");
+  section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
+                struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);
+  ContourGaps gaps(section, gap_parts(pitch, plan.tolerance, margin));
+  gaps.find(points);
+  const Reservation more(budget,
+                         gaps.crossing_count() * (ContourRings::bytes_of_gap_crossing + bytes),
+                         "the gaps of a layer");
+  if (job) job->set_progress(0.75);
+  ContourRings rings(section, gaps, struts.has_value(), plan.tolerance / 32);
+  const Borrowed<ContourNumbers> room;
+  out.begin(*room);
+  RingBuilder builder(rings, part, plan.units, out);
+  std::unordered_set<uint64_t> taken;
+  uint64_t unresolved = section.unresolved() - gaps.saddles() + gaps.unresolved();
+  rings.follow_all(section, points, [&] {
+    ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0,
+                           taken);
+    details.find(points);
+    builder.build(details, job);
+    unresolved += details.unresolved();
+  });
+  out.set_unresolved(unresolved);
+  out.close(*room);
+  if (plan.topology_samples != 0)
+    out.set_topology(builder.dropped() + gaps.count_topology_steps(job) +
+                     count_topology_steps(model, resolved, section, plan.topology_samples, job));
+}
+
 }  // namespace
 
 const void* Contours::points() const {
@@ -293,77 +386,22 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   const double pitch = three_digits(plan.pitch > 0 ? plan.pitch : plan.tolerance);
   Ref<Contours> out = make_ref<Contours>(plan.format, plan.topology_samples);
   out->set_pitch(pitch);
-  double low[2], high[2];
-  const bool is_empty = !find_window(model, plan, pitch, low, high);
-  check_units(plan, pitch, low, high);
+  WindowGrid at{{}, {}, pitch, margin_of(plan, pitch)};
+  const bool is_empty = !find_window(model, plan, pitch, at.low, at.high);
+  check_units(plan, pitch, at.low, at.high);
   if (is_empty) {
     scope.done();
     return out;
   }
-  const double margin = margin_of(plan, pitch);
-  check_sides(margin, pitch, low, high);
+  check_sides(at.margin, pitch, at.low, at.high);
   const Scales resolved = model.resolved(plan.length_scale);
-  ContourGrid grid(plan.plane, low, high, pitch);
-  require_reach(model, resolved,
-                Box3{plan.plane.at(low[0], low[1]), plan.plane.at(high[0], high[1])}.grown(pitch),
-                "the window");
-  const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
-  const Reservation nodes(budget, grid.bytes(model, resolved), "the nodes of a layer");
-  ContourPoints points(model, resolved, plan.plane, job);
-  std::optional<LayerStruts> struts;
-  if (gives_struts(resolved, pitch)) {
-    const Structure& structure = *resolved[0]->structure;
-    // Points lie in the window, however large the tolerance is.
-    const double size = std::max(high[0] - low[0], high[1] - low[1]);
-    struts.emplace(model, structure, grid, 2 * std::min(plan.tolerance, size), job);
-    points.use_struts(struts->all);
-    // Else rows of lattices cost less.
-    if (structure.gains_by_layers())
-      grid.find_nodes(struts->all, struts->shape, points);
-    else
-      grid.find_nodes(model, resolved, job);
-  } else {
-    grid.find_nodes(model, resolved, job);
-  }
-  if (job) job->set_progress(0.25);
-
-  // Half of the tolerance is for what the boundary does between crossings, half for leaving points
-  // out.
-  const double part = 0.5 * plan.tolerance;
-  ContourSection section(grid, margin);
-  // Of a ring, gates may be there twice, and three times the points.
-  constexpr uint64_t bytes = ContourSection::bytes_of_crossing + 2 * sizeof(LineGate) +
-                             2 * sizeof(Vec2) + 3 * sizeof(Vec2);
-  const Reservation edges(budget, ContourSection::bytes_of_edges(grid), "the edges of a layer");
-  const uint64_t crossing_count = section.count_crossings(job);
-  const Reservation crossings(budget, crossing_count * bytes + ContourRings::bytes(crossing_count),
-                              "the crossings of a layer");
-  section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
-                struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);
-  ContourGaps gaps(section, gap_parts(pitch, plan.tolerance, margin));
-  gaps.find(points);
-  const Reservation more(budget,
-                         gaps.crossing_count() * (ContourRings::bytes_of_gap_crossing + bytes),
-                         "the gaps of a layer");
-  if (job) job->set_progress(0.75);
-  ContourRings rings(section, gaps, struts.has_value(), plan.tolerance / 32);
-  const Borrowed<ContourNumbers> room;
-  out->begin(*room);
-  RingBuilder builder(rings, part, plan.units, *out);
-  std::unordered_set<uint64_t> taken;
-  uint64_t unresolved = section.unresolved() - gaps.saddles() + gaps.unresolved();
-  rings.follow_all(section, points, [&] {
-    ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0,
-                           taken);
-    details.find(points);
-    builder.build(details, job);
-    unresolved += details.unresolved();
-  });
-  out->set_unresolved(unresolved);
-  out->close(*room);
-  if (plan.topology_samples != 0)
-    out->set_topology(builder.dropped() + gaps.count_topology_steps(job) +
-                      count_topology_steps(model, resolved, section, plan.topology_samples, job));
+  ContourGrid::check(plan.plane, at.low, at.high, pitch);
+  require_reach(
+      model, resolved,
+      Box3{plan.plane.at(at.low[0], at.low[1]), plan.plane.at(at.high[0], at.high[1])}.grown(pitch),
+      "the window");
+  const double unit = plane_unit(pitch, std::max(at.high[0] - at.low[0], at.high[1] - at.low[1]));
+  find_contours(model, resolved, in_unit(plan, unit), in_unit(at, unit), *out, job);
   scope.done();
   return out;
 }
