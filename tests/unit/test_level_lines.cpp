@@ -197,6 +197,39 @@ void test_a_jump_is_no_wall(void**) {
   }
 }
 
+/// Whatever the heights on both sides: also of 0.001 and 0.999, and where one passes 0 on its way.
+void test_no_height_of_a_jump_is_a_wall(void**) {
+  const Box2 window{{-0.9, -0.9}, {0.9, 0.9}};
+  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+    const WallSection section{0.3, window, tolerance};
+    for (const char* text :
+         {"ceil(x)-round(y)+0.1", "floor(x)-floor(y)+0.1", "floor(x)-floor(y)+0.5",
+          "floor(x)-floor(y)+0.001", "floor(x)-floor(y)+0.000001", "floor(x)-floor(y)+0.999",
+          "floor(x)+floor(y)-5.5", "floor(3*sin(x)*sin(y))+0.2", "select(x*x+y*y-10,1,-0.01)"}) {
+      const LineGraph graph = make(text, FunctionalKind::sheet)->wall_lines(section);
+      if (!graph.lines.empty()) fail_msg("%s: %zu lines", text, graph.lines.size());
+    }
+    // Passes 0 at y = pi, and jumps from y - pi to y - pi - 7 or + 7 along x.
+    const LineGraph graph = make("y-pi+7*select(x-2,1,0)-7*select(x-4,1,0)", FunctionalKind::sheet)
+                                ->wall_lines(section);
+    assert_true(!graph.lines.empty());
+    for (const auto& [a, b] : graph.lines)
+      for (const uint32_t end : {a, b}) {
+        const double y = graph.points[end].y - std::floor(graph.points[end].y);
+        if (std::abs(y - 0.5) > 1e-3) fail_msg("a wall at y = %g of the cell", y);
+      }
+  }
+}
+
+/// Walls are found where the function is steep: from -1 to 1 within some 1e-6 squares.
+void test_steep_functions_have_walls(void**) {
+  for (const double tolerance : {1e-2, 1e-6}) {
+    const auto f = make("tanh(10000000*(x-1.1))+0.9", FunctionalKind::sheet);
+    const LineGraph graph = f->wall_lines({0.3, {{0.1, 0.1}, {0.9, 0.9}}, tolerance});
+    assert_int_equal(crossings(graph, {0.05, 0.47}, {0.95, 0.47}), 1);
+  }
+}
+
 void test_paths_end_where_lines_meet(void**) {
   // A T with a bend in its bar and another in its stem, and a triangle.
   LineGraph graph;
@@ -269,6 +302,8 @@ int main() {
       cmocka_unit_test(test_lines_of_sheared_cells),
       cmocka_unit_test(test_a_circle),
       cmocka_unit_test(test_a_jump_is_no_wall),
+      cmocka_unit_test(test_no_height_of_a_jump_is_a_wall),
+      cmocka_unit_test(test_steep_functions_have_walls),
       cmocka_unit_test(test_paths_end_where_lines_meet),
       cmocka_unit_test(test_points_within_a_distance_are_one),
       cmocka_unit_test(test_mean_length),

@@ -104,6 +104,7 @@ void LevelLines::evaluate_signs(int64_t j, Row& row) {
 bool LevelLines::find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const {
   const double near = std::min(0.02 * section_.tolerance, 1e-3 * pitch_);
   const double begin = std::max(std::abs(at_a), std::abs(at_b));
+  const double height = std::abs(at_a - at_b);
   const Vec2 from = a, way = b - a;
   const double span = length(way);
   double low = 0, high = 1, at_low = at_a, at_high = at_b;
@@ -140,9 +141,28 @@ bool LevelLines::find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const {
   b = from + way * high;
   at_a = at_low;
   at_b = at_high;
-  // Where the function jumps it does not come near the level.
-  return std::isfinite(at_low) && std::isfinite(at_high) &&
-         (std::min(std::abs(at_low), std::abs(at_high)) < 0.25 * begin || begin == 0);
+  // A network has a line in either case; what is told here is whether bends are followed.
+  if (follows_jumps_)
+    return std::isfinite(at_low) && std::isfinite(at_high) &&
+           std::min(std::abs(at_low), std::abs(at_high)) < 0.25 * begin;
+  return !is_jump(from, way, {low, high, at_low, at_high}, near / span, height);
+}
+
+// The root is within a step of the better end of the bracket, if the function is as good as
+// straight there. The other end may be far off, and is brought near: first by that step, then by
+// halving.
+bool LevelLines::is_jump(Vec2 from, Vec2 way, Bracket in, double step, double height) const {
+  constexpr int max_steps = 20;
+  double t = std::abs(in.at_low) <= std::abs(in.at_high) ? in.low + step : in.high - step;
+  for (int i = 0; i < max_steps && !in.is_lower_than(0.25 * height); ++i) {
+    if (!(t > in.low && t < in.high)) t = 0.5 * (in.low + in.high);
+    const double at = value(from + way * t);
+    const bool is_low = (at <= 0) == (in.at_low <= 0);
+    (is_low ? in.low : in.high) = t;
+    (is_low ? in.at_low : in.at_high) = at;
+    t = 0.5 * (in.low + in.high);
+  }
+  return !in.is_lower_than(0.25 * height);
 }
 
 uint32_t LevelLines::crossing(Vec2 a, double at_a, Vec2 b, double at_b) {

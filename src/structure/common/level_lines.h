@@ -71,7 +71,19 @@ class LevelLines {
   /// The point where the function passes the level between two points, one inside and one outside;
   /// `nothing` where it jumps.
   uint32_t crossing(Vec2 a, double at_a, Vec2 b, double at_b);
+  /// Whether there is a point where the function passes the level, or jumps and jumps are followed.
   bool find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const;
+  /// Two places on a way, one inside and one outside, and the values there.
+  struct Bracket {
+    double low, high, at_low, at_high;
+    bool is_lower_than(double height) const {
+      return std::isfinite(at_low) && std::isfinite(at_high) &&
+             std::abs(at_high - at_low) <= height;
+    }
+  };
+  /// Whether of the height of a bracket, `height`, more than a quarter remains where it is narrow,
+  /// down to 1e-6 of its width.
+  bool is_jump(Vec2 from, Vec2 way, Bracket in, double step, double height) const;
   void connect(int64_t j, const Row& low, const Row& high);
   void add_line(uint32_t a, uint32_t b);
   void refine();
