@@ -261,6 +261,37 @@ void test_seeds_without_jitter_give_squares(void**) {
   }
 }
 
+/// In the plane of faces, up to rounding, cells above and below are equally near. The same squares
+/// are there as beside it, also in turned cells and far from the origin.
+void test_planes_of_faces_show_each_wall_once(void**) {
+  Context context(1, 0, 0);
+  // x to z, z to -x by a rotation whose zeros are rounded.
+  const double zero = std::cos(0.5 * pi);
+  const Rotation quarter{{zero, 0, 1, 0, 1, 0, -1, 0, zero}};
+  for (const Rotation& rotation : {Rotation{}, quarter})
+    for (const Vec2 far : {Vec2{0, 0}, Vec2{20000.3, -10000.7}})
+      for (const double size : {0.8, 1.2, 0.3, 2.5})
+        for (int k = 0; k < 30; ++k) {
+          Row row{"faces", {{far.x, far.y, 0.1}, {size, size, size}, rotation}};
+          row.jitter = 0;
+          const Ref<Foam> foam = make(context, row);
+          const Vec2 middle = far + Vec2{0.5 * size, 0.5 * size}, half{4 * size, 3 * size};
+          const Box2 box{middle - half, middle + half};
+          const LineGraph graph = foam->wall_lines({0.1 + size * k, box, 1});
+          const LineGraph beside = foam->wall_lines({0.1 + size * (k + 0.25), box, 1});
+          if (graph.lines.size() != beside.lines.size() ||
+              graph.points.size() != beside.points.size())
+            fail_msg("cells of %g, face %d: %zu lines between %zu points, beside it %zu, %zu", size,
+                     k, graph.lines.size(), graph.points.size(), beside.lines.size(),
+                     beside.points.size());
+          assert_true(graph.lines.size() > 90);
+          for (const auto& [a, b] : graph.lines)
+            if (std::abs(length(graph.points[a] - graph.points[b]) - size) > 1e-6 * size)
+              fail_msg("cells of %g, face %d: a line is %g long", size, k,
+                       length(graph.points[a] - graph.points[b]));
+        }
+}
+
 /// Inside the window three lines meet at each point, and the plane falls apart into cells of points
 /// with one nearest seed: Euler's formula.
 void test_three_lines_meet(void**) {
@@ -372,6 +403,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(test_lines_are_where_the_nearest_seed_changes),
       cmocka_unit_test(test_seeds_without_jitter_give_squares),
+      cmocka_unit_test(test_planes_of_faces_show_each_wall_once),
       cmocka_unit_test(test_three_lines_meet),
       cmocka_unit_test(test_length_by_stereology),
       cmocka_unit_test(test_windows_have_the_same_lines),

@@ -35,6 +35,45 @@ SectionCells::SectionCells(const SectionSeeds& seeds, const Box2& window) : seed
     poll();
     members_[next[square(seed(i))]++] = i;
   }
+  find_hidden();
+}
+
+// Of seeds one above the other, the plane is nearer to one, or in the face between them. The others
+// must not cut cells: in the face, sides that two seeds bound alike would be cut anywhere by
+// rounding.
+void SectionCells::find_hidden() {
+  CancelPoll poll(current_job());
+  hidden_.resize(seeds_.seeds.size());
+  for (uint32_t i = 0; i < hidden_.size(); ++i) {
+    poll();
+    hidden_[i] = is_hidden(i);
+  }
+  uint32_t kept = 0;
+  for (size_t square = 0, at = 0; square + 1 < starts_.size(); ++square) {
+    for (; at < starts_[square + 1]; ++at)
+      if (!hidden_[members_[at]]) members_[kept++] = members_[at];
+    starts_[square + 1] = kept;
+  }
+  members_.resize(kept);
+}
+
+bool SectionCells::is_hidden(uint32_t own) const {
+  const SectionSeed& mine = seed(own);
+  const Vec2 p = mine.position;
+  const double near = seeds_.same_place(p);
+  for (int j = row(p.y - near); j <= row(p.y + near); ++j)
+    for (int i = column(p.x - near); i <= column(p.x + near); ++i) {
+      const size_t square =
+          static_cast<size_t>(j) * static_cast<size_t>(columns_) + static_cast<size_t>(i);
+      for (uint32_t at = starts_[square]; at < starts_[square + 1]; ++at) {
+        const uint32_t other = members_[at];
+        const Vec2 d = seed(other).position - p;
+        if (other == own || !(std::max(std::abs(d.x), std::abs(d.y)) <= near)) continue;
+        const double weight = seed(other).weight;
+        if (weight < mine.weight || (weight == mine.weight && other < own)) return true;
+      }
+    }
+  return false;
 }
 
 int SectionCells::column(double x) const {
@@ -46,6 +85,8 @@ int SectionCells::row(double y) const {
 }
 
 const CountedVector<SectionCells::Corner>& SectionCells::cell(uint32_t own) {
+  corners_.clear();
+  if (hidden_[own]) return corners_;
   const Vec2 p = seed(own).position;
   const double r = 1.01 * seeds_.reach;  // no cell extends beyond the reach
   corners_ = {{{p.x - r, p.y - r}, nobody},
@@ -93,14 +134,7 @@ void SectionCells::cut(uint32_t own, int column, int row) {
     const Vec2 d = seed(other).position - mine.position;
     const double apart = dot(d, d);
     if (other == own || apart > bound_ * bound_ || corners_.empty()) continue;
-    const double offset = apart + (seed(other).weight - mine.weight);
-    if (apart <= 1e-24 * seeds_.reach * seeds_.reach) {
-      // One above the other: the plane is all on one side, or in the face between them, and then
-      // belongs to the first of both.
-      if (offset < 0 || (offset == 0 && other < own)) corners_.clear();
-      continue;
-    }
-    cut(own, other, d, offset);
+    cut(own, other, d, apart + (seed(other).weight - mine.weight));
   }
 }
 

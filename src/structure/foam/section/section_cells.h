@@ -33,6 +33,10 @@ class SectionCells {
   const SectionSeed& seed(uint32_t i) const { return seeds_.seeds[i]; }
   int column(double x) const;
   int row(double y) const;
+  /// Finds the seeds that have another above or below them in space that is no farther from the
+  /// plane, and takes them out of the squares.
+  void find_hidden();
+  bool is_hidden(uint32_t seed) const;
   /// Cuts the cell with those of the seeds of a square that may bound it; finds how far it extends.
   void cut(uint32_t own, int column, int row);
   void cut(uint32_t own, uint32_t other, Vec2 to_other, double offset);
@@ -44,6 +48,7 @@ class SectionCells {
   double side_;  // of squares, each with its seeds
   int columns_, rows_;
   CountedVector<uint32_t> starts_, members_;
+  CountedVector<uint8_t> hidden_;  // of the seeds
   // Of the cell that is being cut.
   CountedVector<Corner> corners_, next_;
   CountedVector<double> gaps_;

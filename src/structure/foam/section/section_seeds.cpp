@@ -26,6 +26,8 @@ class Search {
         area_(window.grown(3 * reach_)),
         slab_{{area_.min.x, area_.min.y, z_ - reach_}, {area_.max.x, area_.max.y, z_ + reach_}} {
     found_.reach = reach_;
+    found_.height = z_;
+    found_.origin = plane.from_grid().origin;
   }
 
   SectionSeeds find();
@@ -114,6 +116,17 @@ SectionSeeds Search::find() {
 }
 
 }  // namespace
+
+// With u = 2^-53, a coordinate g of the grid is off by up to 4 u of itself, and the sum of three
+// products and an offset by 5 u of their magnitudes. The products are at most sqrt(3) |p - origin|
+// in all, as the stretch cancels: 18 sqrt(3) u for two seeds, below 2^-48. The map itself is off by
+// some u of the distance of two seeds.
+double SectionSeeds::same_place(Vec2 p) const {
+  const double away = length(Vec3{p.x, p.y, height} - origin) + reach;
+  const double rounding = 0x1p-48 * (away + length(origin));
+  // Where rounding is more than what corners are told apart by (section_lines.cpp), cells are lost.
+  return std::min(1e-12 * reach + rounding, 1e-7 * reach);
+}
 
 // With F the division by the stretch, a point of the plane is F (x a + y b + z c) in the space of
 // the diagram, a, b and c being the rows of the grid's rotation and x, y, z from the grid's origin.

@@ -24,7 +24,13 @@ struct SectionSeed {
 /// two seeds have the same order in every window.
 struct SectionSeeds {
   double reach = 0;  ///< no point of the plane is farther from its nearest seed
+  double height = 0;
+  Vec3 origin;  ///< of the grid, in the plane and along its normal
   CountedVector<SectionSeed> seeds;
+
+  /// A seed whose position differs from this one by no more, along each axis, is above or below it
+  /// except for rounding. The same in every window.
+  double same_place(Vec2 position) const;
 };
 
 /// The foam whose seeds are sought, with struts or walls.
