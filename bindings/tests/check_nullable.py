@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""abi.json says which arguments may be NULL, as msq.h does.
+"""abi.json says of some functions which arguments may be NULL, as msq.h does.
 
 usage: check_nullable.py ABI_JSON
 """

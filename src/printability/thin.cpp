@@ -369,8 +369,8 @@ Disc disc_around_sample(double distance, const double pitch[2]) {
 
 }  // namespace
 
-// Places are samples of the layer, so the first column and row of the disc are its place's: the
-// block's may be outside where the disc fits.
+// A place is the sample at the disc's first column and row. The block's first sample may lie
+// outside the layer although the disc fits.
 ThinSamples::ThinSamples(const unsigned across[2])
     : disc_(disc_of_block(across, 1)), wide_(disc_of_block(across, 2)) {
   int column = disc_.lengths[0].first;

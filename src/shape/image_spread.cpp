@@ -76,9 +76,9 @@ void spread(const T* first, const uint64_t* count, uint64_t dy, uint64_t dz, Ima
     const auto is_sample = hn::FirstN(d, std::min(left, hn::Lanes(d)));
     const auto has_next = hn::FirstN(d, left - 1);
     for (uint64_t k = 0; k < count[2]; ++k) {
-      const T* row = first + k * dz + i;
       V before = hn::Zero(d);
-      for (uint64_t j = 0; j < count[1]; ++j, row += dy) {
+      for (uint64_t j = 0; j < count[1]; ++j) {
+        const T* const row = first + k * dz + j * dy + i;
         const V v = load_before(d, row, end);
         range.add(v, is_sample);
         along[0].add(hn::Sub(load_before(d, row + 1, end), v), has_next);
@@ -115,7 +115,6 @@ namespace msq {
 
 #define MSQ_SPREAD(T, name)                                                                    \
   HWY_EXPORT(name);                                                                            \
-  template <>                                                                                  \
   ImageSpread spread_of(const T* first, const uint64_t(&count)[3], uint64_t dy, uint64_t dz) { \
     ImageSpread found;                                                                         \
     HWY_DYNAMIC_DISPATCH(name)(first, count, dy, dz, found);                                   \

@@ -19,7 +19,10 @@ struct ImageSpread {
 
 /// Of count[0] x count[1] x count[2] samples from `first` on, rows `dy` and layers `dz` apart, x
 /// fastest. Differences are taken in double precision.
-template <class T>
-ImageSpread spread_of(const T* first, const uint64_t (&count)[3], uint64_t dy, uint64_t dz);
+ImageSpread spread_of(const uint8_t* first, const uint64_t (&count)[3], uint64_t dy, uint64_t dz);
+ImageSpread spread_of(const int16_t* first, const uint64_t (&count)[3], uint64_t dy, uint64_t dz);
+ImageSpread spread_of(const uint16_t* first, const uint64_t (&count)[3], uint64_t dy, uint64_t dz);
+ImageSpread spread_of(const float* first, const uint64_t (&count)[3], uint64_t dy, uint64_t dz);
+ImageSpread spread_of(const double* first, const uint64_t (&count)[3], uint64_t dy, uint64_t dz);
 
 }  // namespace msq

@@ -166,7 +166,7 @@ HWY_INLINE void Sums::add_edge(Vec3 from, Vec3 to, const CornerLanes& start, con
 
 void Sums::write(size_t count, Expansion* made) const {
   constexpr double factor = 1 / (4 * pi);
-  const auto store = [&](V of, auto&& use) {
+  const auto store = [&](V of, auto&& use) HWY_ATTR {
     double stored[max_simd_doubles];
     hn::StoreU(of, d, stored);
     for (size_t i = 0; i < count; ++i) use(made[i], stored[i]);

@@ -68,6 +68,8 @@ class OpenMesh {
   /// Up to this number of edges, computing the bounds is worth a sum over all edges.
   static constexpr size_t max_steady_edges = 4096;
   static constexpr size_t max_way_edges = 65536;
+  /// Up to this number of edges, expansions are faster than bounds by the tree. What expand_loops()
+  /// adds for rounding covers sums of so many terms.
   static constexpr size_t max_expanded_edges = 1024;
 
   double scale_;

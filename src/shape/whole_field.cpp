@@ -37,7 +37,8 @@ bool WholeField::add_sheet(const Triangle3& cap) {
   sheet.normal = normal * (1 / size);
   sheet.height = dot(a, sheet.normal);
   // Normals of thin triangles are the less exact.
-  sheet.height_room = 4 * tolerance_ * (1 + length(b - a) * length(c - a) / size);
+  const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+  sheet.height_room = 4 * tolerance_ * (1 + longest * longest / size);
   if (!(std::abs(sheet.height) > sheet.height_room)) return false;
   sheet.jump = sheet.height > 0 ? 1 : -1;
   for (size_t i = 0; i < 3; ++i) {
@@ -62,7 +63,7 @@ double WholeField::doubtful_part() const {
   return std::min(1.0, error_ / (slope_ * radius_));
 }
 
-bool WholeField::count_jumps(Vec3 d, int64_t& jumps) const {
+bool WholeField::pass_caps(Vec3 d, int64_t& whole) const {
   const double way = length(d);
   for (const Sheet& sheet : sheets_) {
     const double beyond = dot(d, sheet.normal) - sheet.height;
@@ -77,7 +78,7 @@ bool WholeField::count_jumps(Vec3 d, int64_t& jumps) const {
     }
     if (!is_within) continue;
     if (!is_sure) return false;
-    jumps -= sheet.jump;
+    whole -= sheet.jump;
   }
   return true;
 }
@@ -89,7 +90,7 @@ bool WholeField::whole_at(Vec3 p, int64_t& whole) const {
                        d.y * (yy * d.y + yz * d.z) + zz * d.z * d.z;
   const double nearest = std::floor(value + 0.5);
   whole = static_cast<int64_t>(nearest);
-  return std::abs(value - nearest) + error_ < 0.5 && count_jumps(d, whole);
+  return std::abs(value - nearest) + error_ < 0.5 && pass_caps(d, whole);
 }
 
 }  // namespace msq

@@ -28,7 +28,7 @@ class WholeField {
 
   /// Whether the number is the same everywhere in the ball.
   bool is_constant(int64_t& whole) const;
-  /// The part of the ball, about, in which whole_at() does not know the number.
+  /// About the part of the ball in which whole_at() does not know the number.
   double doubtful_part() const;
   /// The number at a point of the ball, if it is known.
   bool whole_at(Vec3 p, int64_t& whole) const;
@@ -45,8 +45,9 @@ class WholeField {
     int64_t jump;
   };
   bool add_sheet(const Triangle3& cap);
-  /// How many caps are between the centre and a point, with signs. False if rounding decides.
-  bool count_jumps(Vec3 d, int64_t& jumps) const;
+  /// Changes a number by the caps between the centre and a point. False if rounding decides: then
+  /// the number is not known.
+  bool pass_caps(Vec3 d, int64_t& whole) const;
 
   Vec3 centre_;
   double scale_ = 1;

@@ -92,10 +92,11 @@ void WholeParts::find_kept() {
     kept_.resize(kept_.size() - count);
     for (size_t i = 0; i < count; ++i) balls[i] = ball_about(box_of(parts[i]));
     if (mesh_.knows_expansions()) mesh_.expand(balls.data(), count, expansions.data());
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; ++i) {
       look_into(parts[i], balls[i],
                 mesh_.knows_expansions() && expansions[i].is_known ? &expansions[i] : nullptr);
-    if (doubtful_.size() >= max_kept_doubtful) settle_doubtful();
+      if (doubtful_.size() >= max_kept_doubtful) settle_doubtful();
+    }
   }
 }
 

@@ -228,12 +228,14 @@ void check_units(const ContourPlan& plan, double pitch, const double low[2], con
 }
 
 /// The unit of LayerPlane: near the pitch, or near the window's size if that is less. So the unit
-/// times the plan's units does not overflow if the window's coordinates times these do not.
-double plane_unit(double pitch, double size) {
+/// times the plan's units does not overflow if the window's coordinates times these do not. Nor
+/// does it underflow.
+double plane_unit(double pitch, double size, double units) {
   constexpr int max_exponent = 1000;  // then the inverse is in range, too
+  const int least = std::min(std::max(0, -std::ilogb(units)) - max_exponent, max_exponent);
   int exponent;
   std::frexp(std::min(pitch, size), &exponent);
-  return std::ldexp(1, std::clamp(exponent - 2, -max_exponent, max_exponent));
+  return std::ldexp(1, std::clamp(exponent - 2, least, max_exponent));
 }
 
 /// The window of a layer and what its grid needs.
@@ -400,7 +402,8 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
       model, resolved,
       Box3{plan.plane.at(at.low[0], at.low[1]), plan.plane.at(at.high[0], at.high[1])}.grown(pitch),
       "the window");
-  const double unit = plane_unit(pitch, std::max(at.high[0] - at.low[0], at.high[1] - at.low[1]));
+  const double size = std::max(at.high[0] - at.low[0], at.high[1] - at.low[1]);
+  const double unit = plane_unit(pitch, size, plan.units);
   find_contours(model, resolved, in_unit(plan, unit), in_unit(at, unit), *out, job);
   scope.done();
   return out;

@@ -205,7 +205,9 @@ void test_no_height_of_a_jump_is_a_wall(void**) {
     for (const char* text :
          {"ceil(x)-round(y)+0.1", "floor(x)-floor(y)+0.1", "floor(x)-floor(y)+0.5",
           "floor(x)-floor(y)+0.001", "floor(x)-floor(y)+0.000001", "floor(x)-floor(y)+0.999",
-          "floor(x)+floor(y)-5.5", "floor(3*sin(x)*sin(y))+0.2", "select(x*x+y*y-10,1,-0.01)"}) {
+          "floor(x)+floor(y)-5.5", "floor(3*sin(x)*sin(y))+0.2", "select(x*x+y*y-10,1,-0.01)",
+          // A jump between a node inside and one without a value.
+          "select(x-4.33,select(x-4.40,sqrt(-1-x*x),0.9),-0.1)"}) {
       const LineGraph graph = make(text, FunctionalKind::sheet)->wall_lines(section);
       if (!graph.lines.empty()) fail_msg("%s: %zu lines", text, graph.lines.size());
     }

@@ -3,7 +3,7 @@
 
 Python ends every thread but the main one at the point where it next wants the interpreter lock. In a
 callback that unwinds through the frames of C++, which aborts the program. So calls that may call back
-are over before that.
+are cancelled and waited for at its end.
 """
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ class Calls:
             os.register_at_fork(after_in_child=self._jobs.clear)  # other threads are not in the child
 
     def begin(self, call: Any, job: Any = None) -> bool:
-        """To be said before a call. False: the program ends, and the call must not be made."""
+        """Call this before a call of msq. False: the program ends, and the call must not be made."""
         self._jobs[id(call)] = job
-        if self._is_ending:  # looked at after the call is listed, so that none escapes cancel()
+        if self._is_ending:  # read after the call is listed: cancel() sees it, or it sees this
             self.end(call)
             return False
         return True
 
     def end(self, call: Any) -> None:
-        """To be said after a call."""
+        """Call this after it."""
         self._jobs.pop(id(call), None)
 
     def cancel(self) -> None:

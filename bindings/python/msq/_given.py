@@ -6,6 +6,7 @@ import collections.abc
 import dataclasses
 import functools
 import inspect
+import io
 from numbers import Number
 from typing import Any, Callable, Generic, NoReturn, TypeVar, Union, cast, overload
 
@@ -105,17 +106,20 @@ def plain(value: Any) -> Any:
     return tuple(map(plain, value)) if isinstance(value, (list, tuple)) else value
 
 
+def kept(value: Any) -> Any:
+    """An iterator is used up by the call. Files, which are iterators of lines, are read by it."""
+    is_used_up = isinstance(value, collections.abc.Iterator) and not isinstance(value, io.IOBase)
+    return tuple(value) if is_used_up else value
+
+
 def remembers(make: F) -> F:
     """For __init__ and for class methods that make objects: keeps what they were called with."""
     signature = inspect.signature(make)
 
     @functools.wraps(make)
     def wrapped(*arguments: Any, **named: Any) -> Any:
-        # An iterator is used up by the call.
-        arguments = tuple(tuple(one) if isinstance(one, collections.abc.Iterator) else one
-                          for one in arguments)
-        named = {name: tuple(one) if isinstance(one, collections.abc.Iterator) else one
-                 for name, one in named.items()}
+        arguments = tuple(map(kept, arguments))
+        named = {name: kept(one) for name, one in named.items()}
         result = make(*arguments, **named)
         made = arguments[0] if result is None else result
         made._given = Given(make, signature.bind(*arguments, **named))

@@ -110,6 +110,8 @@ class _Xml:
         self._mesh: Optional[Mesh] = None
         self.meshes: Dict[int, Mesh] = {}  #: by the id() of their elements
         self._parser = expat.ParserCreate(namespace_separator=" ")
+        if hasattr(self._parser, "SetReparseDeferralEnabled"):
+            self._parser.SetReparseDeferralEnabled(False)  # else it lags behind what was fed
         self._parser.StartElementHandler = self._start
         self._parser.EndElementHandler = self._end
         self._parser.StartNamespaceDeclHandler = self._space

@@ -40,12 +40,16 @@ class HeldSignals:
 
     def __enter__(self) -> HeldSignals:
         self._running.__enter__()
-        if threading.current_thread() is threading.main_thread():
-            for number in _NUMBERS:
-                handler = signal.getsignal(number)
-                if callable(handler):
-                    self._handlers[number] = handler
-                    signal.signal(number, self._handle)
+        try:
+            if threading.current_thread() is threading.main_thread():
+                for number in _NUMBERS:
+                    handler = signal.getsignal(number)
+                    if callable(handler):
+                        self._handlers[number] = handler
+                        signal.signal(number, self._handle)
+        except BaseException:  # of a handler
+            self._running.__exit__()
+            raise
         return self
 
     def __exit__(self, *_exception: Any) -> None:

@@ -103,8 +103,8 @@ void LevelLines::evaluate_signs(int64_t j, Row& row) {
 
 bool LevelLines::find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const {
   const double near = std::min(0.02 * section_.tolerance, 1e-3 * pitch_);
+  const double begin_a = at_a, begin_b = at_b;
   const double begin = std::max(std::abs(at_a), std::abs(at_b));
-  const double height = std::abs(at_a - at_b);
   const Vec2 from = a, way = b - a;
   const double span = length(way);
   double low = 0, high = 1, at_low = at_a, at_high = at_b;
@@ -141,10 +141,11 @@ bool LevelLines::find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const {
   b = from + way * high;
   at_a = at_low;
   at_b = at_high;
-  // A network has a line in either case; what is told here is whether bends are followed.
+  // A network has a line in either case. The result only decides whether bends are followed.
   if (follows_jumps_)
     return std::isfinite(at_low) && std::isfinite(at_high) &&
            std::min(std::abs(at_low), std::abs(at_high)) < 0.25 * begin;
+  const double height = std::abs(begin_a - begin_b);
   return !is_jump(from, way, {low, high, at_low, at_high}, near / span, height);
 }
 
@@ -154,7 +155,12 @@ bool LevelLines::find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const {
 bool LevelLines::is_jump(Vec2 from, Vec2 way, Bracket in, double step, double height) const {
   constexpr int max_steps = 20;
   double t = std::abs(in.at_low) <= std::abs(in.at_high) ? in.low + step : in.high - step;
-  for (int i = 0; i < max_steps && !in.is_lower_than(0.25 * height); ++i) {
+  // Where an end is infinite or not a number, the first height is that of the first finite bracket.
+  const auto has_shrunk = [&] {
+    if (!std::isfinite(height)) height = std::abs(in.at_high - in.at_low);
+    return in.is_lower_than(0.25 * height);
+  };
+  for (int i = 0; i < max_steps && !has_shrunk(); ++i) {
     if (!(t > in.low && t < in.high)) t = 0.5 * (in.low + in.high);
     const double at = value(from + way * t);
     const bool is_low = (at <= 0) == (in.at_low <= 0);
@@ -162,14 +168,14 @@ bool LevelLines::is_jump(Vec2 from, Vec2 way, Bracket in, double step, double he
     (is_low ? in.at_low : in.at_high) = at;
     t = 0.5 * (in.low + in.high);
   }
-  return !in.is_lower_than(0.25 * height);
+  return !has_shrunk();
 }
 
 uint32_t LevelLines::crossing(Vec2 a, double at_a, Vec2 b, double at_b) {
   if ((at_a <= 0) == (at_b <= 0)) return nothing;
-  const bool is_jump = !find_root(a, at_a, b, at_b);
+  const bool jumps = !find_root(a, at_a, b, at_b);
   // The boundary of a network may be a jump; the middle of a wall may not.
-  if (is_jump && !follows_jumps_) return nothing;
+  if (jumps && !follows_jumps_) return nothing;
   graph_.points.push_back(std::abs(at_a) <= std::abs(at_b) ? a : b);
   return static_cast<uint32_t>(graph_.points.size() - 1);
 }

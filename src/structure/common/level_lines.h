@@ -71,7 +71,8 @@ class LevelLines {
   /// The point where the function passes the level between two points, one inside and one outside;
   /// `nothing` where it jumps.
   uint32_t crossing(Vec2 a, double at_a, Vec2 b, double at_b);
-  /// Whether there is a point where the function passes the level, or jumps and jumps are followed.
+  /// Narrows a and b to where the function passes the level. False where it jumps past it; of
+  /// networks, by a cheaper rule.
   bool find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const;
   /// Two places on a way, one inside and one outside, and the values there.
   struct Bracket {
@@ -81,8 +82,8 @@ class LevelLines {
              std::abs(at_high - at_low) <= height;
     }
   };
-  /// Whether of the height of a bracket, `height`, more than a quarter remains where it is narrow,
-  /// down to 1e-6 of its width.
+  /// Whether more than a quarter of `height`, that of the first bracket, remains after up to 20
+  /// steps that narrow the bracket, 19 of them halvings.
   bool is_jump(Vec2 from, Vec2 way, Bracket in, double step, double height) const;
   void connect(int64_t j, const Row& low, const Row& high);
   void add_line(uint32_t a, uint32_t b);
