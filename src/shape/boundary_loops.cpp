@@ -49,19 +49,6 @@ void add_strip(const Corner& a, const Corner& b, Vec3 from, Vec3 to, Vec3 p, Hal
   if (std::signbit(im) != is_negative) sum.add_turns(is_negative ? -1 : 1);
 }
 
-/// Calls visit(from, to, their corners) for the edges of a loop.
-template <class Visit>
-void for_each_edge(const Vec3* begin, const Vec3* end, Vec3 p, double scale, Visit&& visit) {
-  const Corner first = corner(*begin, p, scale);
-  Corner last = first;
-  for (const Vec3* v = begin + 1; v != end; ++v) {
-    const Corner next = corner(*v, p, scale);
-    visit(v[-1], *v, last, next);
-    last = next;
-  }
-  visit(end[-1], *begin, last, first);
-}
-
 /// Distance from the origin to the segment between two points.
 double distance_to_segment(Vec3 a, Vec3 along, double length_squared) {
   const double t = std::clamp(-dot(a, along) / length_squared, 0.0, 1.0);
@@ -70,21 +57,35 @@ double distance_to_segment(Vec3 a, Vec3 along, double length_squared) {
 
 }  // namespace
 
+template <class Visit>
+void BoundaryLoops::for_each_edge(size_t loop, Vec3 p, Visit&& visit) const {
+  const Vec3* const begin = vertices_.data() + starts_[loop];
+  const Vec3* const end = vertices_.data() + starts_[loop + 1];
+  const Corner first = corner(*begin, p, scale_);
+  Corner last = first;
+  for (const Vec3* v = begin + 1; v != end; ++v) {
+    const Corner next = corner(*v, p, scale_);
+    visit(v[-1], *v, last, next);
+    last = next;
+  }
+  visit(end[-1], *begin, last, first);
+}
+
 BoundaryLoops::BoundaryLoops(const TriangleSoup& soup, const Loops& loops, double scale)
     : scale_(scale), starts_(loops.starts) {
   vertices_.reserve(loops.vertices.size());
   for (const uint32_t v : loops.vertices) vertices_.push_back(soup.vertices[v]);
   loops_.reserve(loops.count());
   for (size_t i = 0; i < loops.count(); ++i) {
-    Loop loop{loops.starts[i], loops.starts[i + 1], {}, 0, 0};
+    const uint64_t begin = starts_[i], end = starts_[i + 1];
+    Loop loop{{}, 0, 0};
     const auto vertex = [&](uint64_t n) { return vertices_[n] * scale; };
-    Box3 box{vertex(loop.begin), vertex(loop.begin)};
-    for (uint64_t n = loop.begin; n < loop.end; ++n)
-      box = {min(box.min, vertex(n)), max(box.max, vertex(n))};
+    Box3 box{vertex(begin), vertex(begin)};
+    for (uint64_t n = begin; n < end; ++n) box = {min(box.min, vertex(n)), max(box.max, vertex(n))};
     loop.centre = (box.min + box.max) * 0.5;
-    for (uint64_t n = loop.begin; n < loop.end; ++n) {
+    for (uint64_t n = begin; n < end; ++n) {
       const Vec3 a = vertex(n) - loop.centre;
-      const Vec3 b = vertex(n + 1 == loop.end ? loop.begin : n + 1) - loop.centre;
+      const Vec3 b = vertex(n + 1 == end ? begin : n + 1) - loop.centre;
       loop.radius = std::max(loop.radius, length(a) * (1 + 0x1p-40));
       loop.area += 0.5 * length(cross(a, b)) * (1 + 0x1p-40);
     }
@@ -94,11 +95,10 @@ BoundaryLoops::BoundaryLoops(const TriangleSoup& soup, const Loops& loops, doubl
 
 int64_t BoundaryLoops::turns(Vec3 p) const {
   HalfAngles sum;
-  for (const Loop& loop : loops_)
-    for_each_edge(&vertices_[loop.begin], vertices_.data() + loop.end, p, scale_,
-                  [&](Vec3 from, Vec3 to, const Corner& a, const Corner& b) {
-                    add_strip(a, b, from, to, p, sum);
-                  });
+  for (size_t i = 0; i < loops_.size(); ++i)
+    for_each_edge(i, p, [&](Vec3 from, Vec3 to, const Corner& a, const Corner& b) {
+      add_strip(a, b, from, to, p, sum);
+    });
   return sum.turns();
 }
 
@@ -106,20 +106,19 @@ BoundaryLoops::Level BoundaryLoops::level(Vec3 p) const {
   constexpr double far = std::numeric_limits<double>::infinity();
   Level level{0, 0, 0, far, 0, far, 0};
   HalfAngles sum;
-  for (const Loop& loop : loops_) {
-    for_each_edge(&vertices_[loop.begin], vertices_.data() + loop.end, p, scale_,
-                  [&](Vec3 from, Vec3 to, const Corner& a, const Corner& b) {
-                    add_strip(a, b, from, to, p, sum);
-                    const Vec3 along = (to - from) * scale_;
-                    const double squared = dot(along, along), size = std::sqrt(squared);
-                    const double rounding = 0x1p-48 * (max_magnitude(a.way) + size);
-                    const double d =
-                        std::max(0.0, distance_to_segment(a.way, along, squared) - rounding);
-                    level.nearest = std::min(level.nearest, d);
-                    level.slope += std::min(size / (d * d), 2 / d);
-                    // 2^13 times the error here: enough for points up to 1023/1024 of d away.
-                    level.error += 0x1p-36 * (1 + size / d);
-                  });
+  for (size_t i = 0; i < loops_.size(); ++i) {
+    for_each_edge(i, p, [&](Vec3 from, Vec3 to, const Corner& a, const Corner& b) {
+      add_strip(a, b, from, to, p, sum);
+      const Vec3 along = (to - from) * scale_;
+      const double squared = dot(along, along), size = std::sqrt(squared);
+      const double rounding = 0x1p-48 * (max_magnitude(a.way) + size);
+      const double d = std::max(0.0, distance_to_segment(a.way, along, squared) - rounding);
+      level.nearest = std::min(level.nearest, d);
+      level.slope += std::min(size / (d * d), 2 / d);
+      // 2^13 times the error here: enough for points up to 1023/1024 of d away.
+      level.error += 0x1p-36 * (1 + size / d);
+    });
+    const Loop& loop = loops_[i];
     const double to_ball = std::max(0.0, length(loop.centre - p * scale_) - loop.radius);
     level.nearest_loop = std::min(level.nearest_loop, to_ball);
     level.view += loop.area / (to_ball * to_ball);
@@ -136,29 +135,28 @@ BoundaryLoops::Level BoundaryLoops::level(Vec3 p) const {
 BoundaryLoops::Course BoundaryLoops::course(Vec3 p, Vec3 direction, double rounding) const {
   Course course{0, 0, 0, std::numeric_limits<double>::infinity(), 0, 0, 0};
   HalfAngles sum;
-  for (const Loop& loop : loops_)
-    for_each_edge(&vertices_[loop.begin], vertices_.data() + loop.end, p, scale_,
-                  [&](Vec3 from, Vec3 to, const Corner& a, const Corner& b) {
-                    add_strip(a, b, from, to, p, sum);
-                    const Vec3 along = (to - from) * scale_;
-                    const double squared = dot(along, along), size = std::sqrt(squared);
-                    const double of_a = length(a.way), of_b = length(b.way);
-                    const double d = std::max(0.0, distance_to_segment(a.way, along, squared) -
-                                                       0x1p-48 * (max_magnitude(a.way) + size));
-                    course.nearest = std::min(course.nearest, d);
-                    const double inverse = 1 / d, part = size * inverse;
-                    const double slope = std::min(part, 2.0) * inverse;
-                    course.bend += 2 * std::min(part * inverse, 2 * inverse) * inverse;
-                    // 2^3 times what is lost, and what the ray's points are off.
-                    course.error += 0x1p-46 * (1 + part) + 2 * rounding * slope;
-                    course.slack += 0x1p-46 * (1 + part * part) * slope;
-                    const double product = of_a * of_b;
-                    const double over = product * (product + dot(a.way, b.way));
-                    if (over > 0)
-                      course.along += dot(cross(a.way, along), direction) * ((of_a + of_b) / over);
-                    else
-                      course.slack += slope;
-                  });
+  for (size_t i = 0; i < loops_.size(); ++i)
+    for_each_edge(i, p, [&](Vec3 from, Vec3 to, const Corner& a, const Corner& b) {
+      add_strip(a, b, from, to, p, sum);
+      const Vec3 along = (to - from) * scale_;
+      const double squared = dot(along, along), size = std::sqrt(squared);
+      const double of_a = length(a.way), of_b = length(b.way);
+      const double d = std::max(0.0, distance_to_segment(a.way, along, squared) -
+                                         0x1p-48 * (max_magnitude(a.way) + size));
+      course.nearest = std::min(course.nearest, d);
+      const double inverse = 1 / d, part = size * inverse;
+      const double slope = std::min(part, 2.0) * inverse;
+      course.bend += 2 * std::min(part * inverse, 2 * inverse) * inverse;
+      // 2^3 times what is lost, and what the ray's points are off.
+      course.error += 0x1p-46 * (1 + part) + 2 * rounding * slope;
+      course.slack += 0x1p-46 * (1 + part * part) * slope;
+      const double product = of_a * of_b;
+      const double over = product * (product + dot(a.way, b.way));
+      if (over > 0)
+        course.along += dot(cross(a.way, along), direction) * ((of_a + of_b) / over);
+      else
+        course.slack += slope;
+    });
   course.turns = sum.turns();
   course.rest = sum.rest();
   // The bound grows by (4/3)^3.
@@ -174,14 +172,13 @@ void BoundaryLoops::expand(const Ball* balls, size_t count, double rounding,
 
 Vec3 BoundaryLoops::gradient(Vec3 p) const {
   Vec3 sum;
-  for (const Loop& loop : loops_)
-    for_each_edge(&vertices_[loop.begin], vertices_.data() + loop.end, p, scale_,
-                  [&](Vec3, Vec3, const Corner& from, const Corner& to) {
-                    const Vec3 a = from.way, b = to.way;
-                    const double of_a = length(a), of_b = length(b), product = of_a * of_b;
-                    const double over = product * (product + dot(a, b));
-                    if (over > 0) sum = sum + cross(a, b) * ((of_a + of_b) / over);
-                  });
+  for (size_t i = 0; i < loops_.size(); ++i)
+    for_each_edge(i, p, [&](Vec3, Vec3, const Corner& from, const Corner& to) {
+      const Vec3 a = from.way, b = to.way;
+      const double of_a = length(a), of_b = length(b), product = of_a * of_b;
+      const double over = product * (product + dot(a, b));
+      if (over > 0) sum = sum + cross(a, b) * ((of_a + of_b) / over);
+    });
   return sum;
 }
 

@@ -87,10 +87,13 @@ class BoundaryLoops {
 
  private:
   struct Loop {
-    uint64_t begin, end;
     Vec3 centre;          // scaled
     double radius, area;  // of a ball about it, and of triangles in it that it bounds
   };
+
+  /// Calls visit(from, to, their corners) for the edges of a loop.
+  template <class Visit>
+  void for_each_edge(size_t loop, Vec3 p, Visit&& visit) const;
 
   double scale_;
   std::vector<uint64_t> starts_;  // loop i is vertices_[starts_[i]] up to [starts_[i + 1]]

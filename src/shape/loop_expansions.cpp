@@ -198,9 +198,8 @@ void expand_balls(const LoopEdges& edges, const Ball* balls, size_t count, Expan
     const size_t size = std::min(lanes, count - begin);
     Sums sums(d, balls + begin, size, edges.scale);
     for (size_t loop = 0; loop < edges.loops; ++loop) {
-      const Vec3 *const from = edges.vertices + edges.starts[loop], *const to =
-                                                                        edges.vertices +
-                                                                        edges.starts[loop + 1];
+      const Vec3* const from = edges.vertices + edges.starts[loop];
+      const Vec3* const to = edges.vertices + edges.starts[loop + 1];
       const CornerLanes first = corner(d, *from, sums.p, edges.scale);
       CornerLanes last = first;
       for (const Vec3* v = from + 1; v != to; ++v) {

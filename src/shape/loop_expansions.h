@@ -12,15 +12,15 @@
 
 namespace msq {
 
-/// 4 pi S about the centre of a ball. Lengths are scaled.
+/// S about the centre of a ball, as a quadratic function of the scaled vector from there.
 struct Expansion {
   /// False where an edge is within twice the radius, as too little would be known, and where the +x
   /// ray from the centre passes through a vertex.
   bool is_known;
-  double turns;  ///< S at the centre
-  double error;  ///< bound of what the terms are off by, anywhere in the ball, over 4 pi
-  Vec3 first;    ///< factors of x, y and z, over 4 pi
-  std::array<double, 6> second;  ///< of xx, yy, zz, xy, xz and yz, over 4 pi
+  double turns;                  ///< S at the centre
+  double error;                  ///< bound of what the function is off by, anywhere in the ball
+  Vec3 first;                    ///< factors of x, y and z
+  std::array<double, 6> second;  ///< of xx, yy, zz, xy, xz and yz
 };
 
 struct LoopEdges {

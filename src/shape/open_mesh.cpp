@@ -49,7 +49,13 @@ bool OpenMesh::is_whole_about(Vec3 p, double distance, int64_t& whole) const {
   return caps_.is_steady_in(p, distance, &whole);
 }
 
+void OpenMesh::expand(const Ball* balls, size_t count, Expansion* made) const {
+  if (loops_.edges() <= max_expanded_edges) return loops_.expand(balls, count, rounding_, made);
+  for (size_t i = 0; i < count; ++i) made[i].is_known = false;
+}
+
 bool OpenMesh::find_field(const Ball& ball, const Expansion& of_loops, WholeField& field) const {
+  if (!of_loops.is_known) return false;
   caps_.find_meeting(ball, field.start(ball, scale_));
   const double beyond = static_cast<double>(caps_.count_beyond(ball.centre));
   return field.set(beyond, of_loops, caps_.tolerance());

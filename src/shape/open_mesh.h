@@ -27,13 +27,10 @@ class OpenMesh {
   /// Whether, within this distance of p, the winding number is everywhere that of the +x ray
   /// through mesh and caps minus one number, `whole`.
   bool is_whole_about(Vec3 p, double distance, int64_t& whole) const;
-  /// Whether expand() is worth its while.
-  bool knows_expansions() const { return loops_.edges() <= max_expanded_edges; }
-  void expand(const Ball* balls, size_t count, Expansion* made) const {
-    loops_.expand(balls, count, rounding_, made);
-  }
-  /// As is_whole_about(), point by point, from a known expansion about the ball. False if too
-  /// little is known.
+  /// Not known of any where there are so many edges that bounds by the tree are faster.
+  void expand(const Ball* balls, size_t count, Expansion* made) const;
+  /// As is_whole_about(), point by point, from an expansion about the ball. False if too little is
+  /// known.
   bool find_field(const Ball& ball, const Expansion& of_loops, WholeField& field) const;
   /// As is_whole_about(), at a point with an expansion about it. False if rounding decides, and on
   /// a cap: rows have crossings with caps, and where one is at a sample, the numbers before and

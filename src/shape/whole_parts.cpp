@@ -91,18 +91,17 @@ void WholeParts::find_kept() {
     std::copy(kept_.end() - count, kept_.end(), parts.begin());
     kept_.resize(kept_.size() - count);
     for (size_t i = 0; i < count; ++i) balls[i] = ball_about(box_of(parts[i]));
-    if (mesh_.knows_expansions()) mesh_.expand(balls.data(), count, expansions.data());
+    mesh_.expand(balls.data(), count, expansions.data());
     for (size_t i = 0; i < count; ++i) {
-      look_into(parts[i], balls[i],
-                mesh_.knows_expansions() && expansions[i].is_known ? &expansions[i] : nullptr);
+      look_into(parts[i], balls[i], expansions[i]);
       if (doubtful_.size() >= max_kept_doubtful) settle_doubtful();
     }
   }
 }
 
-void WholeParts::look_into(const SamplePart& p, const Ball& ball, const Expansion* expansion) {
+void WholeParts::look_into(const SamplePart& p, const Ball& ball, const Expansion& expansion) {
   int64_t whole;
-  if (expansion && mesh_.find_field(ball, *expansion, field_)) {
+  if (mesh_.find_field(ball, expansion, field_)) {
     if (look_by_field(p, is_up_to(p, side))) return;
   } else if (mesh_.is_whole_about(ball.centre, ball.radius, whole)) {
     return fine_.fill(p, whole);
@@ -169,7 +168,7 @@ void WholeParts::keep_cube(const SamplePart& p, const Numbers& numbers) {
       for (uint64_t i = p.low[0]; i < p.high[0]; ++i, ++n) {
         const size_t place = fine_.place(i, j, k);
         cube[place] = to_single(numbers[n]);
-        if (cube[place] == single_not_proven && mesh_.knows_expansions())
+        if (cube[place] == single_not_proven)
           doubtful_.push_back({grid_.at(i, j, k), single_.size() - 1, place});
       }
 }

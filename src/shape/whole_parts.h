@@ -142,7 +142,7 @@ class WholeParts {
   void find_fine(const SamplePart& p);
   /// Of the parts that were kept, and of their parts.
   void find_kept();
-  void look_into(const SamplePart& p, const Ball& ball, const Expansion* expansion);
+  void look_into(const SamplePart& p, const Ball& ball, const Expansion& expansion);
   /// False if halves of the part may tell more.
   bool look_by_field(const SamplePart& p, bool is_least);
   /// Of a cube.

@@ -103,8 +103,7 @@ void LevelLines::evaluate_signs(int64_t j, Row& row) {
 
 bool LevelLines::find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const {
   const double near = std::min(0.02 * section_.tolerance, 1e-3 * pitch_);
-  const double begin_a = at_a, begin_b = at_b;
-  const double begin = std::max(std::abs(at_a), std::abs(at_b));
+  const double begin = std::max(std::abs(at_a), std::abs(at_b)), height = std::abs(at_a - at_b);
   const Vec2 from = a, way = b - a;
   const double span = length(way);
   double low = 0, high = 1, at_low = at_a, at_high = at_b;
@@ -145,7 +144,6 @@ bool LevelLines::find_root(Vec2& a, double& at_a, Vec2& b, double& at_b) const {
   if (follows_jumps_)
     return std::isfinite(at_low) && std::isfinite(at_high) &&
            std::min(std::abs(at_low), std::abs(at_high)) < 0.25 * begin;
-  const double height = std::abs(begin_a - begin_b);
   return !is_jump(from, way, {low, high, at_low, at_high}, near / span, height);
 }
 
