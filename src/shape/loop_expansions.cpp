@@ -186,6 +186,8 @@ void Sums::write(size_t count, Expansion* made) const {
   hn::StoreU(angles.im, d, im);
   hn::StoreU(angles.turns, d, passed);
   for (size_t i = 0; i < count; ++i) {
+    made[i].turns = 0;
+    if (!made[i].is_known) continue;  // there may be no numbers
     const HalfAngles sum(re[i], im[i], static_cast<int64_t>(passed[i] + turns[i]));
     made[i].turns = static_cast<double>(sum.turns()) + sum.rest() / (2 * pi);
   }
