@@ -8,6 +8,7 @@
 #include "base/borrowed.h"
 #include "base/run_parts.h"
 #include "ray/cast_regions.h"
+#include "ray/ray_starts.h"
 
 namespace msq {
 
@@ -57,10 +58,8 @@ class Caster {
         detail_(detail),
         job_(job),
         levels_(1 + resolved.size()),
-        bounds_(model.bounds().grown(model.shape().ray_tolerance())),
-        near_(bounds_.grown(model.shape().ray_tolerance())),
         is_bounded_(model.shape().is_bounded()),
-        beyond_(detail == HitDetail::all && is_bounded_ ? way_past_end(model, resolved) : 0),
+        boxes_(boxes_of(model, resolved, detail)),
         searches_(searches),
         hits_(hits),
         ends_(memory.ends.data()),
@@ -73,13 +72,8 @@ class Caster {
         without_normal_(memory.without_normal) {}
 
   void run(size_t count) {
-    if (model_.shape().gains_by_rays()) {
-      for (uint32_t i = 0; i < count; ++i)
-        if (Vec3 origin; start(i, origin)) waiting_[0].push_back(i);
-    } else {
-      for (uint32_t i = 0; i < count; ++i)
-        if (Vec3 origin; start(i, origin)) enter_shape(i, {origin, searches_[i].ray.direction});
-    }
+    for (size_t i = 0; i < count; i += RayStarts::most)
+      start(static_cast<uint32_t>(i), std::min(RayStarts::most, count - i));
     while (true) {
       // The coarsest level first: rays then reach finer ones in large batches.
       size_t level = 0;
@@ -97,36 +91,70 @@ class Caster {
   }
 
  private:
+  static StartBoxes boxes_of(const Model& model, const Scales& resolved, HitDetail detail) {
+    const Shape& shape = model.shape();
+    StartBoxes boxes{};
+    boxes.tolerance = shape.ray_tolerance();
+    boxes.bounds = model.bounds().grown(boxes.tolerance);
+    boxes.near = boxes.bounds.grown(boxes.tolerance);
+    if (detail == HitDetail::all && shape.is_bounded())
+      boxes.beyond = way_past_end(model, resolved);
+    // Without scales, the surface of the box is what is asked.
+    boxes.has_box = shape.is_box() && !resolved.empty();
+    boxes.box = shape.bounds();
+    return boxes;
+  }
+
+  bool is_beyond_common() const { return detail_ != HitDetail::all || is_bounded_; }
   double beyond_end(const RaySearch& s) const {
-    if (detail_ != HitDetail::all || is_bounded_) return beyond_;
-    return way_past_end(model_, resolved_, s.ray, s.to);
+    return is_beyond_common() ? boxes_.beyond : way_past_end(model_, resolved_, s.ray, s.to);
   }
 
   /// Rays begin where they come near the shape, so that none of their numbers is larger than the
-  /// shape's. Returns whether the ray comes near it, and the new origin, which would be waited for
-  /// if it were read as soon as it is written.
-  bool start(uint32_t i, Vec3& origin) {
-    const RaySearch& s = searches_[i];
+  /// shape's.
+  void start(uint32_t first, size_t count) {
+    if (is_beyond_common())
+      start_rays(searches_ + first, count, boxes_, starts_);
+    else
+      starts_.miss = starts_.begin = starts_.crosses = 0;
     static constexpr RayHit nothing{};  // static: a new one would stall on its stores
-    hits_[i] = nothing;
-    if (!(s.from <= s.to)) return false;
-    const double beyond = beyond_end(s);
-    double low = s.from, high = s.to + beyond;
-    if (!clip_to_box(s.ray, bounds_, low, high)) return false;
-    Progress& progress = progress_[i];
-    const Vec3 place = s.ray.at(low);
-    if (near_.contains(place)) {  // as move_to_box(), without a call
-      progress.origin = origin = place;
-      progress.offset = low;
-      end(i, 0) = high - low;
-    } else {
-      RaySearch moved = s;
-      if (!move_to_box(bounds_, near_, low, high, beyond, moved, progress.offset, end(i, 0)))
-        return false;
-      progress.origin = origin = moved.ray.origin;
+    for (uint32_t lane = 0; lane < count; ++lane) {
+      const uint32_t i = first + lane;
+      RayHit& hit = hits_[i];
+      hit = nothing;
+      if (starts_.miss >> lane & 1) continue;
+      Progress& progress = progress_[i];
+      if (starts_.begin >> lane & 1) {
+        for (int axis = 0; axis < 3; ++axis) progress.origin[axis] = starts_.origin[axis][lane];
+        progress.offset = starts_.offset[lane];
+        end(i, 0) = starts_.end[lane];
+      } else if (!start_alone(i)) {
+        continue;
+      }
+      hit.scale = 0;
+      progress.from = 0;
+      if (starts_.crosses >> lane & 1) {
+        progress.from = starts_.enter[lane];
+        go_deeper(i, 0, starts_.leave[lane]);
+      } else if (model_.shape().gains_by_rays()) {
+        waiting_[0].push_back(i);
+      } else {
+        enter_shape(i);
+      }
     }
-    progress.from = 0;
-    hits_[i].scale = 0;
+  }
+
+  /// Starts a ray by itself, also one whose origin is so far away that its numbers do not tell the
+  /// place. Returns whether it comes near the shape.
+  bool start_alone(uint32_t i) {
+    RaySearch moved = searches_[i];
+    const double beyond = beyond_end(moved);
+    double low = moved.from, high = moved.to + beyond;
+    if (!(moved.from <= moved.to) || !clip_to_box(moved.ray, boxes_.bounds, low, high) ||
+        !move_to_box(boxes_.bounds, boxes_.near, low, high, beyond, moved, progress_[i].offset,
+                     end(i, 0)))
+      return false;
+    progress_[i].origin = moved.ray.origin;
     return true;
   }
 
@@ -136,11 +164,12 @@ class Caster {
 
   void enter_shape() {
     if (model_.shape().gains_by_rays()) return enter_shape_together();
-    for (const uint32_t i : rays_) enter_shape(i, ray(i));
+    for (const uint32_t i : rays_) enter_shape(i);
   }
 
-  void enter_shape(uint32_t i, const Ray& along) {
+  void enter_shape(uint32_t i) {
     const Shape& shape = model_.shape();
+    const Ray along = ray(i);
     const double from = progress_[i].from, to = end(i, 0);
     double t, out = 0;
     const bool is_met = levels_ == 1 ? shape.enter(along, from, to, t, job_)
@@ -231,7 +260,7 @@ class Caster {
   }
 
   double tolerance_of(uint32_t i, size_t level) {
-    return level == 0 ? model_.shape().ray_tolerance()
+    return level == 0 ? boxes_.tolerance
                       : resolved_[level - 1]->structure->ray_tolerance(ray(i), end(i, 0));
   }
 
@@ -328,9 +357,9 @@ class Caster {
   const HitDetail detail_;
   const Job* const job_;
   const size_t levels_;
-  const Box3 bounds_, near_;
   const bool is_bounded_;
-  const double beyond_;
+  const StartBoxes boxes_;
+  RayStarts starts_;
   const RaySearch* const searches_;
   RayHit* const hits_;
   double* const ends_;

@@ -48,10 +48,10 @@ struct Batch {
   std::vector<Seen> seen;
   std::vector<Colour> colours, square;
 
-  void clear() {
-    samples.clear();
-    searches.clear();
-    seen.clear();
+  void resize(size_t count) {
+    samples.resize(count);
+    searches.resize(count);
+    seen.resize(count);
   }
 };
 
@@ -122,7 +122,6 @@ class Renderer {
       const auto y = static_cast<uint32_t>(index / across * side);
       const Borrowed<Batch> borrowed;
       Batch& batch = *borrowed;
-      batch.clear();
       fill(pass, x, y, batch);
       cast_batch(model_, resolved_, batch.searches, batch.hits, HitDetail::all, job_);
       see(pass, batch);
@@ -141,7 +140,18 @@ class Renderer {
     std::array<Place, tile_side> places;
     for (uint32_t i = 0; i < side; ++i) places[i] = {i / n, i % n, (i % n + 0.5) / n};
     const Camera& camera = view_.camera();
-    double size = size_of(view_.direction(0, 0));  // for orthographic: of all rays
+    const auto search_from = [&](double at_x, double at_y, double& size) {
+      const Vec3 direction = view_.direction(at_x, at_y);
+      size = size_of(direction);
+      RaySearch search;
+      search_along(view_.origin(at_x, at_y), direction, size, camera.clip_near, camera.clip_far,
+                   search);
+      return search;
+    };
+    double size;
+    const RaySearch first = search_from(0, 0, size);
+    batch.resize(ray_batch);
+    size_t count = 0;
     for (const TilePixel& at : tile_order) {
       if (at.x >= side || at.y >= side) continue;
       const Place& right = places[at.x];
@@ -152,13 +162,19 @@ class Renderer {
       if (pass.leaves_out && i % 2 == 0 && j % 2 == 0) continue;
       const uint32_t picture_x = plan_.tile_x + x, picture_y = plan_.tile_y + y;
       const double at_x = picture_x + right.middle, at_y = picture_y + down.middle;
-      if (camera.is_perspective) size = size_of(view_.direction(at_x, at_y));
-      search_along(view_.origin(at_x, at_y), view_.direction(at_x, at_y), size, camera.clip_near,
-                   camera.clip_far, batch.searches.emplace_back());
+      RaySearch& search = batch.searches[count];
+      if (camera.is_perspective) {
+        search = search_from(at_x, at_y, size);
+      } else {
+        search = first;
+        search.ray.origin = view_.origin(at_x, at_y);
+      }
       const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
-      batch.samples.push_back({x, y, at.y * side + at.x, size});
-      batch.seen.push_back({pixel, down.sample * n + right.sample, 0, 0});
+      batch.samples[count] = {x, y, at.y * side + at.x, size};
+      batch.seen[count] = {pixel, down.sample * n + right.sample, 0, 0};
+      ++count;
     }
+    batch.resize(count);
   }
 
   void see(const Pass& pass, Batch& batch) const {
@@ -177,6 +193,7 @@ class Renderer {
   /// Calls write(index) for the pixels of the block whose ray is in pixel (x, y) of the tile.
   template <class Write>
   void for_block(const Pass& pass, const Sample& sample, Write&& write) const {
+    if (pass.step == 1) return write(sample.y * frame_.row_pixels + sample.x);
     const uint64_t x1 = std::min(plan_.tile_width, sample.x + pass.step);
     const uint64_t y1 = std::min(plan_.tile_height, sample.y + pass.step);
     for (uint64_t y = sample.y; y < y1; ++y)

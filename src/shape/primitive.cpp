@@ -64,15 +64,6 @@ bool Primitive::cross(const Ray& ray, double from, double to, double& t, double&
          cross_section(ray, from, to, low, high, ray_tolerance(), is_in, t, end);
 }
 
-bool BoxShape::cross(const Ray& ray, double from, double to, double& t, double& end,
-                     const Job*) const {
-  const Box3 box = bounds();
-  const auto is_in = [&box](Vec3 p) { return box.contains(p); };
-  double low = from, high = to;
-  return clip_to_box(ray, box, low, high) &&
-         cross_section(ray, from, to, low, high, ray_tolerance(), is_in, t, end);
-}
-
 double Primitive::leave(const Ray& ray, double from, double to, const Job*) const {
   double low = from, high = to;
   return section(ray, 0, low, high) ? high : from;

@@ -36,9 +36,7 @@ class BoxShape final : public Primitive {
  public:
   explicit BoxShape(const Box3& box);
   bool inside(Vec3 p) const override { return bounds().contains(p); }
-  /// As that of all primitives, without calls.
-  bool cross(const Ray& ray, double from, double to, double& t, double& end,
-             const Job* job) const override;
+  bool is_box() const override { return true; }
   void fill_rows(const RowBlock& block) const override;
   bool holds_block(const RowBlock& block) const override {
     const Box3 samples = block.box();

@@ -95,6 +95,8 @@ class Shape : public Described {
                      const Job* job) const;
   /// Whether rays are best evaluated together, by the functions that take several.
   virtual bool gains_by_rays() const { return false; }
+  /// Whether it is the box bounds().
+  virtual bool is_box() const { return false; }
   /// As enter() for each search: found and t, where it was.
   virtual void enter_all(RaySearch* searches, size_t count, const Job* job) const;
   /// As leave() for each search: t.
