@@ -4,29 +4,9 @@
 
 #include <cstdint>
 
-#include "structure/foam/rays/strut_entry.h"
-#include "strut/capsule_rays.h"
+#include "structure/foam/rays/packet_rays.h"
 
 namespace msq {
-
-/// The rays of a packet, component by component, as FoamRay.
-struct PacketRays {
-  static constexpr size_t most = RayPacket::most;
-
-  alignas(64) double origin[3][most] = {}, direction[3][most] = {};
-  alignas(64) double from[most] = {}, to[most] = {}, error[most] = {}, tolerance[most] = {};
-
-  void set(size_t n, const FoamRay& ray) {
-    for (int axis = 0; axis < 3; ++axis) {
-      origin[axis][n] = ray.origin[axis];
-      direction[axis][n] = ray.direction[axis];
-    }
-    from[n] = ray.from;
-    to[n] = ray.to;
-    error[n] = ray.error;
-    tolerance[n] = ray.tolerance;
-  }
-};
 
 /// What StrutEntries::find() finds, by the bits of rays. Of the others, only find() can tell.
 struct PacketEntries {

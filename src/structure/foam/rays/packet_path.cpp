@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cmath>
 
 #include "base/mask_bits-inl.h"
@@ -17,6 +18,117 @@ namespace {
 
 using D = hn::CappedTag<float, RayPacket::most>;
 using V = hn::Vec<D>;
+using DD = hn::CappedTag<double, 8>;  // its lanes are at most as many as those of D
+using VD = hn::Vec<DD>;
+using DN = hn::Rebind<float, DD>;
+
+HWY_INLINE void store_narrow(VD v, float* to) {
+  hn::Store(hn::DemoteTo(DN(), v), DN(), to);
+}
+
+bool choose(const PacketRays& rays, uint32_t live, Vec3 scale, PacketCourse& course,
+            RayPacket& packet) {
+  const DD d;
+  const VD zero = hn::Zero(d);
+  VD sums[3] = {zero, zero, zero}, error = zero;
+  auto differs = hn::FirstN(DN(), 0);
+  const auto first = static_cast<size_t>(std::countr_zero(live));
+  for (size_t lane = 0; lane < RayPacket::most; lane += hn::Lanes(d)) {
+    const auto is_live = lanes_of(d, live >> lane);
+    error = hn::Max(error, hn::IfThenElseZero(is_live, hn::Load(d, rays.error + lane)));
+    for (int axis = 0; axis < 3; ++axis) {
+      const VD along = hn::Load(d, rays.direction[axis] + lane);
+      sums[axis] = hn::Add(sums[axis], hn::IfThenElseZero(is_live, along));
+      const auto narrow = hn::DemoteTo(DN(), along);
+      hn::Store(narrow, DN(), packet.direction[axis] + lane);
+      const auto of_first = hn::Set(DN(), static_cast<float>(rays.direction[axis][first]));
+      differs = hn::Or(differs, hn::And(lanes_of(DN(), live >> lane), hn::Ne(narrow, of_first)));
+    }
+  }
+  packet.is_parallel = hn::AllFalse(DN(), differs);
+  for (int axis = 0; axis < 3; ++axis) packet.along[axis] = packet.direction[axis][first];
+  course.error = hn::GetLane(hn::MaxOfLanes(d, error));
+  double sum[3];
+  for (int axis = 0; axis < 3; ++axis) sum[axis] = hn::GetLane(hn::SumOfLanes(d, sums[axis]));
+  int k = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(sum[axis]) * scale[k] > std::abs(sum[k]) * scale[axis]) k = axis;
+  course.axis = k;
+  course.up = sum[k] > 0;
+  // Signs are turned such that the packet goes up.
+  const VD sign = hn::Set(d, course.up ? 1.0 : -1.0), far = hn::Set(d, 1e300);
+  const VD least = hn::Set(d, 0.5 * std::abs(sum[k]) / std::popcount(live));
+  auto is_too_flat = hn::FirstN(d, 0);
+  VD begin = far;
+  for (size_t lane = 0; lane < RayPacket::most; lane += hn::Lanes(d)) {
+    const auto is_live = lanes_of(d, live >> lane);
+    const VD along = hn::Load(d, rays.direction[k] + lane);
+    is_too_flat = hn::Or(is_too_flat, hn::AndNot(hn::Ge(hn::Mul(sign, along), least), is_live));
+    const VD inverse = hn::Div(hn::Set(d, 1), along);
+    hn::Store(hn::IfThenElseZero(is_live, inverse), d, course.inverse + lane);
+    const VD place =
+        hn::Add(hn::Load(d, rays.origin[k] + lane), hn::Mul(along, hn::Load(d, rays.from + lane)));
+    begin = hn::Min(begin, hn::IfThenElse(is_live, hn::Mul(sign, place), far));
+  }
+  const double low = hn::GetLane(hn::MinOfLanes(d, begin));
+  course.begin = course.up ? low : -low;
+  return hn::AllFalse(d, is_too_flat);
+}
+
+void place(const PacketRays& rays, const PacketCourse& course, const PathBase& base, Vec3 scale,
+           uint32_t live, PacketPath& path, RayPacket& packet) {
+  const DD d;
+  const int k = course.axis, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
+  const VD plane = hn::Set(d, base.plane), size = hn::Set(d, scale[k]);
+  const VD rounding = hn::Set(d, double(along_rounding)), zero = hn::Zero(d);
+  const VD margin = hn::Set(d, -double(ray_list_margin));
+  const VD own_begin = hn::Set(d, course.up ? 0 : scale[k]);
+  packet.starts = false;
+  for (size_t lane = 0; lane < RayPacket::most; lane += hn::Lanes(d)) {
+    const auto is_live = lanes_of(d, live >> lane);
+    const VD inverse = hn::Load(d, course.inverse + lane);
+    const VD t = hn::Mul(hn::Sub(plane, hn::Load(d, rays.origin[k] + lane)), inverse);
+    const VD way = hn::IfThenElse(is_live, hn::Mul(size, hn::Abs(inverse)), hn::Set(d, 1));
+    const VD from = hn::Sub(hn::Load(d, rays.from + lane), t);
+    const VD to = hn::Sub(hn::Load(d, rays.to + lane), t);
+    hn::Store(t, d, path.enter + lane);
+    hn::Store(way, d, path.way + lane);
+    store_narrow(way, path.step + lane);
+    store_narrow(from, path.from + lane);
+    store_narrow(to, path.to + lane);
+    store_narrow(own_begin, packet.origin[k] + lane);
+    for (int side = 0; side < 2; ++side) {
+      const int axis = lateral[side];
+      const VD along = hn::Load(d, rays.direction[axis] + lane);
+      const VD at = hn::Sub(hn::Add(hn::Load(d, rays.origin[axis] + lane), hn::Mul(along, t)),
+                            hn::Set(d, base.corner[side]));
+      store_narrow(at, path.place[side] + lane);
+      store_narrow(at, packet.origin[axis] + lane);
+      store_narrow(hn::Mul(along, way), path.slope[side] + lane);
+    }
+    const VD low = hn::Max(hn::Sub(from, rounding), zero), high = hn::Add(to, rounding);
+    store_narrow(hn::IfThenElse(is_live, low, hn::Set(d, 1)), packet.from + lane);
+    store_narrow(hn::IfThenElse(is_live, high, hn::Set(d, -1)), packet.to + lane);
+    packet.starts |= !hn::AllFalse(d, hn::And(is_live, hn::Ge(from, margin)));
+  }
+}
+
+uint32_t may_meet(const PacketRays& rays, const PacketPath& path, int slab, const PacketHits& hits,
+                  uint32_t active, double seen, double* last) {
+  const DD d;
+  const VD margin = hn::Set(d, 0.5 * double(ray_list_margin));
+  uint32_t found = 0;
+  for (size_t lane = 0; lane < RayPacket::most; lane += hn::Lanes(d)) {
+    const VD base = hn::Load(d, path.enter + lane), way = hn::Load(d, path.way + lane);
+    const VD enter = hn::Add(base, hn::Mul(hn::Set(d, slab), way));
+    const VD all = hn::Min(hn::Load(d, rays.to + lane), hn::Add(hn::Add(enter, way), margin));
+    const VD limit = hn::Min(all, hn::Add(enter, hn::Mul(hn::Set(d, seen), way)));
+    hn::Store(limit, d, last + lane);
+    const VD first = hn::Add(base, hn::PromoteTo(d, hn::Load(DN(), hits.first + lane)));
+    found |= static_cast<uint32_t>(bits_of(d, hn::Le(first, limit))) << lane;
+  }
+  return found & active;
+}
 
 SlabCrossing cross(const PacketPath& path, const PathSlab& slab, uint32_t live, RayPacket& packet) {
   const D d;
@@ -94,7 +206,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace msq {
 
+HWY_EXPORT(choose);
+HWY_EXPORT(place);
+HWY_EXPORT(may_meet);
 HWY_EXPORT(cross);
+
+bool set_course(const PacketRays& rays, uint32_t live, Vec3 scale, PacketCourse& course,
+                RayPacket& packet) {
+  return HWY_DYNAMIC_DISPATCH(choose)(rays, live, scale, course, packet);
+}
+
+void set_path(const PacketRays& rays, const PacketCourse& course, const PathBase& base, Vec3 scale,
+              uint32_t live, PacketPath& path, RayPacket& packet) {
+  HWY_DYNAMIC_DISPATCH(place)(rays, course, base, scale, live, path, packet);
+}
+
+uint32_t who_may_meet(const PacketRays& rays, const PacketPath& path, int slab,
+                      const PacketHits& hits, uint32_t active, double seen,
+                      double (&last)[RayPacket::most]) {
+  return HWY_DYNAMIC_DISPATCH(may_meet)(rays, path, slab, hits, active, seen, last);
+}
 
 SlabCrossing cross_slab(const PacketPath& path, const PathSlab& slab, uint32_t live,
                         RayPacket& packet) {

@@ -5,21 +5,49 @@
 
 #include <cstdint>
 
+#include "structure/foam/rays/packet_rays.h"
 #include "strut/capsule_rays.h"
 
 namespace msq {
+
+/// How a packet crosses the grid.
+struct PacketCourse {
+  int axis = 0;      ///< along which it crosses most cells
+  bool up = true;    ///< its direction along that
+  double begin = 0;  ///< the first coordinate of its rays along that, foam units
+  double error = 0;  ///< the maximum error of its rays
+  alignas(64) double inverse[RayPacket::most];  ///< of directions along the axis; 0 for other rays
+};
+
+/// Chooses the course of the rays `live`, and sets the directions of the packet. Returns false if
+/// the rays cross too different cells along the axis. `scale`: the size of a cell.
+bool set_course(const PacketRays& rays, uint32_t live, Vec3 scale, PacketCourse& course,
+                RayPacket& packet);
 
 /// Rays from a plane across the grid on, in foam units. Slab n is n slabs behind the plane. Along
 /// the two other axes, positions are relative to a corner on that plane.
 struct PacketPath {
   static constexpr size_t most = RayPacket::most;
 
+  alignas(64) double enter[most];  ///< t on the plane
+  alignas(64) double way[most];    ///< change of t per slab, above 0
+
   alignas(64) float place[2][most];  ///< position on the plane
   alignas(64) float slope[2][most];  ///< change of position per slab
-  alignas(64) float step[most];      ///< change of t per slab, above 0
+  alignas(64) float step[most];      ///< as `way`
   alignas(64) float from[most];      ///< where rays begin and end; t is 0 on the plane
   alignas(64) float to[most];
 };
+
+/// The plane of a path, and the corner on it.
+struct PathBase {
+  double plane;
+  double corner[2];
+};
+
+/// Sets the path of the rays `live`, and the positions of the packet relative to the base.
+void set_path(const PacketRays& rays, const PacketCourse& course, const PathBase& base, Vec3 scale,
+              uint32_t live, PacketPath& path, RayPacket& packet);
 
 struct PathSlab {
   int number;
@@ -40,5 +68,12 @@ struct SlabCrossing {
 /// in this slab. If the packet is parallel, `along` is unchanged.
 SlabCrossing cross_slab(const PacketPath& path, const PathSlab& slab, uint32_t live,
                         RayPacket& packet);
+
+/// Sets last[n] of the rays `active` in a slab to the t up to which the sieve has seen all struts
+/// in their way, and returns the rays that may meet one up to there. `seen`: the part of their way
+/// through the slab that the sieve has seen, infinite for all of it.
+uint32_t who_may_meet(const PacketRays& rays, const PacketPath& path, int slab,
+                      const PacketHits& hits, uint32_t active, double seen,
+                      double (&last)[RayPacket::most]);
 
 }  // namespace msq

@@ -23,6 +23,7 @@
 #include "structure/foam/rays/graded_lists.h"
 #include "structure/foam/rays/packet_entries.h"
 #include "structure/foam/rays/packet_path.h"
+#include "structure/foam/rays/packet_rays.h"
 #include "structure/foam/rays/ray_demand.h"
 #include "structure/foam/rays/ray_struts.h"
 #include "structure/foam/rays/single_ray.h"
@@ -56,10 +57,10 @@ class Walker {
 
   void run(size_t count) {
     for (size_t i = 0; i < count;) {
-      for (; set_up_ < std::min(count, i + most); ++set_up_) set_up(set_up_);
-      const size_t end = packet_end(i, count);
-      start(i, end);
-      i = end;
+      // Lanes left over from a packet that ended early are enough for another one, or set up again.
+      if (i == begin_ + window_ || (i + min_packet > begin_ + window_ && begin_ + window_ < count))
+        set_up(i, std::min(most, count - i));
+      i = start(i);
     }
   }
 
@@ -73,106 +74,55 @@ class Walker {
   /// their directions.
   static constexpr double max_apart = 0.9, max_turned = 0.05;
   /// If there are fewer rays, each is processed alone.
-  static constexpr size_t min_packet = 12;
+  static constexpr int min_packet = 12;
   /// Maximum error of rays, foam units: some thousand cells from the origin.
   static constexpr double max_sure_error = 0x1p-38;
   /// Maximum number of cells across a slab for a packet; a wider packet continues ray by ray.
   static constexpr int max_across = 4;
 
-  /// Sets up ray i, in place of ray i - most.
-  void set_up(size_t i) {
-    RaySearch& search = searches_[i];
-    search.found = false;
-    FoamRay& ray = rays_[i % most];
-    struts_.set_ray(search, ray);
-    // Larger rounding errors may hide the strut in which the ray begins.
-    if (ray.error <= max_sure_error || !(ray.from <= ray.to)) return;
-    if (!foam_.inside(search.ray.at(search.from))) return;
-    StrutEntry begin;
-    begin.is_met = begin.at_from = true;
-    struts_.take(begin, search);
-    ray.to = -std::numeric_limits<double>::infinity();
-  }
-  const FoamRay& ray(size_t i) const { return rays_[i % most]; }
-  /// Ray n of the packet.
-  const FoamRay& ray_of(size_t n) const { return ray(ray_[n]); }
-
-  /// The end of the packet that begins at ray i.
-  size_t packet_end(size_t i, size_t count) const {
-    const FoamRay& first = ray(i);
-    const Vec3 from = first.at(first.from);
-    size_t end = i + 1;
-    for (; end < count && end < i + most; ++end) {
-      const FoamRay& other = ray(end);
-      const Vec3 turned = other.direction - first.direction;
-      if (dot(turned, turned) > max_turned * max_turned) break;
-      const Vec3 apart = other.at(other.from) - from;
-      const Vec3 across = apart - first.direction * dot(apart, first.direction);
-      if (dot(across, across) > max_apart * max_apart) break;
-    }
-    return end;
-  }
-
-  /// Takes the rays [begin, end) of the batch as a packet.
-  void start(size_t begin, size_t end) {
-    uint32_t rays[most];
-    size_t count = 0;
-    for (size_t i = begin; i < end; ++i)
-      if (ray(i).from <= ray(i).to) rays[count++] = static_cast<uint32_t>(i);
-    if (count >= min_packet && take_packet(rays, count)) return walk(first_slab());
-    for (size_t n = 0; n < count; ++n)
-      lone_.walk(ray(rays[n]), ray(rays[n]).from, searches_[rays[n]]);
-  }
-
-  /// Returns false if the rays cross too different cells along the packet's axis.
-  bool take_packet(const uint32_t* rays, size_t count) {
-    count_ = count;
-    Vec3 sum;
-    room_ = 0;
-    packet_.is_parallel = true;
+  /// Takes rays from i on as those that packets consist of.
+  void set_up(size_t i, size_t count) {
+    begin_ = i;
+    window_ = count;
+    rays_.set(struts_.frame(), searches_ + i, count);
     for (size_t n = 0; n < count; ++n) {
-      ray_[n] = rays[n];
-      const FoamRay& own = ray(rays[n]);
-      sum = sum + own.direction;
-      room_ = std::max(room_, struts_.room(own));
-      exact_.set(n, own);
-      for (int axis = 0; axis < 3; ++axis) {
-        packet_.direction[axis][n] = static_cast<float>(own.direction[axis]);
-        packet_.is_parallel &= packet_.direction[axis][n] == packet_.direction[axis][0];
+      RaySearch& search = search_of(n);
+      search.found = false;
+      // Larger rounding errors may hide the strut in which the ray begins.
+      if (rays_.error[n] <= max_sure_error || !(rays_.from[n] <= rays_.to[n])) continue;
+      if (!foam_.inside(search.ray.at(search.from))) continue;
+      StrutEntry begin;
+      begin.is_met = begin.at_from = true;
+      struts_.take(begin, search);
+      rays_.to[n] = -std::numeric_limits<double>::infinity();
+    }
+  }
+  RaySearch& search_of(size_t n) { return searches_[begin_ + n]; }
+
+  /// Takes the rays from i on that stay close together as a packet. Returns the next ray's number.
+  size_t start(size_t i) {
+    const size_t begin = i - begin_;
+    const uint32_t apart = ~rays_.beside(begin, max_apart, max_turned) >> begin;
+    const size_t end =
+        std::min(window_, begin + static_cast<size_t>(std::max(1, std::countr_zero(apart))));
+    live_ = 0;
+    for (size_t n = begin; n < end; ++n) live_ |= uint32_t{rays_.from[n] <= rays_.to[n]} << n;
+    if (std::popcount(live_) >= min_packet && set_course(rays_, live_, scale_, course_, packet_)) {
+      packet_.count = end;
+      room_ = struts_.room(course_.error);
+      has_base_ = false;
+      walk(static_cast<int32_t>(std::floor(course_.begin / scale_[course_.axis])));
+    } else {
+      for (; live_; live_ &= live_ - 1) {
+        const auto n = static_cast<size_t>(std::countr_zero(live_));
+        lone_.walk(rays_.ray(n), rays_.from[n], search_of(n));
       }
     }
-    for (int axis = 0; axis < 3; ++axis) packet_.along[axis] = packet_.direction[axis][0];
-    // The axis along which most cells are crossed; then each ray crosses it.
-    axis_ = 0;
-    for (int axis = 1; axis < 3; ++axis)
-      if (std::abs(sum[axis]) * scale_[axis_] > std::abs(sum[axis_]) * scale_[axis]) axis_ = axis;
-    up_ = sum[axis_] > 0;
-    const double least = 0.5 * std::abs(sum[axis_]) / static_cast<double>(count);
-    for (size_t n = 0; n < count; ++n) {
-      const double d = ray(rays[n]).direction[axis_];
-      if (!((up_ ? d : -d) >= least)) return false;
-      inverse_[n] = 1 / d;
-    }
-    packet_.count = count;
-    live_ = (uint32_t{1} << count) - 1;
-    has_base_ = false;
-    return true;
-  }
-
-  /// The first slab that contains a ray.
-  int32_t first_slab() const {
-    double first = 0;
-    for (size_t n = 0; n < count_; ++n) {
-      const FoamRay& own = ray_of(n);
-      const double place = own.origin[axis_] + own.direction[axis_] * own.from;
-      const double at = std::floor(place / scale_[axis_]);
-      first = n == 0 ? at : up_ ? std::min(first, at) : std::max(first, at);
-    }
-    return static_cast<int32_t>(first);
+    return begin_ + end;
   }
 
   void walk(int32_t slab) {
-    for (; live_; slab += up_ ? 1 : -1) {
+    for (; live_; slab += course_.up ? 1 : -1) {
       check_cancelled(job_);
       if (!cross(slab)) {
         go_on_alone(slab);
@@ -181,60 +131,35 @@ class Walker {
     }
   }
 
+  /// Where rays enter a slab.
+  double plane_of(int32_t slab) const { return (slab + !course_.up) * scale_[course_.axis]; }
+
   /// Continues ray by ray from a slab on.
   void go_on_alone(int32_t slab) {
-    const double plane = (slab + !up_) * scale_[axis_];
     for (uint32_t rest = live_; rest; rest &= rest - 1) {
       const auto n = static_cast<size_t>(std::countr_zero(rest));
-      const FoamRay& own = ray_of(n);
-      const double crossing = (plane - own.origin[axis_]) * inverse_[n];
-      lone_.walk(own, std::max(own.from, crossing), searches_[ray_[n]]);
+      lone_.walk(rays_.ray(n), std::max(rays_.from[n], crossing(n, slab)), search_of(n));
     }
+  }
+  double crossing(size_t n, int32_t slab) const {
+    return (plane_of(slab) - rays_.origin[course_.axis][n]) * course_.inverse[n];
   }
 
   /// Makes the rays' coordinates relative to a slab, and to the cell there that the first live ray
   /// is in.
   void set_base(int32_t slab) {
-    const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
-    const double plane = (slab + !up_) * scale_[k];
-    const auto crossing = [&](size_t n) { return (plane - ray_of(n).origin[k]) * inverse_[n]; };
+    const int k = course_.axis, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
     base_slab_ = slab;
     has_base_ = true;
     const auto first = static_cast<size_t>(std::countr_zero(live_));
-    const FoamRay& live = ray_of(first);
-    const Vec3 place = live.at(std::max(live.from, crossing(first)));
-    for (int side = 0; side < 2; ++side)
-      base_[side] = static_cast<int32_t>(std::floor(place[lateral[side]] / scale_[lateral[side]]));
-    for (size_t n = 0; n < count_; ++n) {
-      const FoamRay& own = ray_of(n);
-      const double t = crossing(n), step = scale_[k] * std::abs(inverse_[n]);
-      enter_[n] = t;
-      step_[n] = step;
-      path_.step[n] = static_cast<float>(step);
-      path_.from[n] = static_cast<float>(own.from - t);
-      path_.to[n] = static_cast<float>(own.to - t);
-      for (int side = 0; side < 2; ++side) {
-        const int axis = lateral[side];
-        const double at = own.origin[axis] + own.direction[axis] * t - base_[side] * scale_[axis];
-        path_.place[side][n] = static_cast<float>(at);
-        path_.slope[side][n] = static_cast<float>(own.direction[axis] * step);
-      }
+    const Vec3 place = rays_.at(first, std::max(rays_.from[first], crossing(first, slab)));
+    PathBase base{plane_of(slab), {}};
+    for (int side = 0; side < 2; ++side) {
+      const double size = scale_[lateral[side]], index = std::floor(place[lateral[side]] / size);
+      base_[side] = static_cast<int32_t>(index);
+      base.corner[side] = index * size;
     }
-    for (size_t n = count_; n < most; ++n) {
-      path_.step[n] = 1;
-      path_.from[n] = path_.to[n] = path_.place[0][n] = path_.place[1][n] = 0;
-      path_.slope[0][n] = path_.slope[1][n] = 0;
-    }
-    packet_.starts = false;
-    for (size_t n = 0; n < most; ++n) {
-      const bool is_live = live_ >> n & 1;
-      packet_.origin[k][n] = static_cast<float>(up_ ? 0 : scale_[k]);
-      packet_.origin[lateral[0]][n] = path_.place[0][n];
-      packet_.origin[lateral[1]][n] = path_.place[1][n];
-      packet_.from[n] = is_live ? std::max(path_.from[n] - along_rounding, 0.0f) : 1;
-      packet_.to[n] = is_live ? path_.to[n] + along_rounding : -1;
-      packet_.starts |= is_live && path_.from[n] >= -static_cast<float>(ray_list_margin);
-    }
+    set_path(rays_, course_, base, scale_, live_, path_, packet_);
     hits_.clear();
     seen_.clear();
   }
@@ -244,17 +169,18 @@ class Walker {
     // Coordinates relative to nearby slabs and cells stay small.
     constexpr int max_slabs = 4;
     constexpr float max_cells = 5;
-    const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
-    int number = up_ ? slab - base_slab_ : base_slab_ - slab;
+    const int k = course_.axis, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
+    const bool up = course_.up;
+    int number = up ? slab - base_slab_ : base_slab_ - slab;
     if (!has_base_ || number < 0 || number >= max_slabs) {
       set_base(slab);
       number = 0;
     }
     SlabCrossing crossing;
     while (true) {
-      const double rise = up_ ? scale_[k] : -scale_[k];
+      const double rise = up ? scale_[k] : -scale_[k];
       crossing = cross_slab(path_,
-                            {number, k, static_cast<float>((up_ ? 0 : scale_[k]) + number * rise),
+                            {number, k, static_cast<float>((up ? 0 : scale_[k]) + number * rise),
                              static_cast<float>(rise)},
                             live_, packet_);
       live_ &= ~crossing.ended;
@@ -279,7 +205,6 @@ class Walker {
     }
     if (last[0] - first[0] >= max_across || last[1] - first[1] >= max_across) return false;
 
-    number_ = number;
     if (!asks_once_) hits_.clear();
     slots_.clear();
     if (struts_.lists().is_full()) {
@@ -307,15 +232,10 @@ class Walker {
       meet_capsules(slot.list, slot.radius + room_, slot.corner, packet_,
                     asks_once_ ? &seen_ : nullptr, hits_);
       const bool is_last = c + 1 == order_.size();
-      uint32_t near = 0;
-      for (uint32_t rest = active; rest; rest &= rest - 1) {
-        const size_t n = static_cast<size_t>(std::countr_zero(rest));
-        if (hits_.first[n] == std::numeric_limits<float>::infinity()) continue;
-        // The other cells contain nothing that the ray may meet before.
-        last_[n] =
-            is_last ? limit(n) : std::min(limit(n), enter(n) + double(order_[c + 1].at) * step_[n]);
-        near |= uint32_t{enter_[n] + double(hits_.first[n]) <= last_[n]} << n;
-      }
+      // The other cells contain nothing that the ray may meet before.
+      const double seen =
+          is_last ? std::numeric_limits<double>::infinity() : double(order_[c + 1].at);
+      const uint32_t near = who_may_meet(rays_, path_, number, hits_, active, seen, last_);
       const uint32_t settled = settle(near);
       active &= ~settled;
       live_ &= ~settled;
@@ -324,16 +244,13 @@ class Walker {
     return true;
   }
 
-  /// Where ray n crosses the first plane of the current slab.
-  double enter(size_t n) const { return enter_[n] + number_ * step_[n]; }
-
   /// Whether the packet may be in the cell (i, j) relative to the base along the two other axes,
   /// and in which part of its way through the slab.
   bool comes_to(Coming& coming, float rise) const {
     const int32_t cell[2] = {coming.i, coming.j};
     float low = 0, high = 1;
     for (int side = 0; side < 2; ++side) {
-      const int axis = (axis_ + 1 + side) % 3;
+      const int axis = (course_.axis + 1 + side) % 3;
       const float size = static_cast<float>(scale_[axis]), room = packet_.spread + 1e-5f;
       const float from = packet_.centre[axis], by = packet_.along[axis] * rise;
       const float begin = static_cast<float>(cell[side]) * size - room - from;
@@ -348,11 +265,6 @@ class Walker {
     return low <= high;
   }
 
-  /// The lists of this slab contain all struts that ray n may meet up to this t.
-  double limit(size_t n) const {
-    return std::min(ray_of(n).to, enter(n) + step_[n] + 0.5 * ray_list_margin);
-  }
-
   /// The list of a cell, for one slab.
   struct Slot {
     CapsuleView list;
@@ -361,14 +273,14 @@ class Walker {
   };
 
   const Slot& add_slot(const Coming& coming, int32_t slab) {
-    const int a = (axis_ + 1) % 3, b = (axis_ + 2) % 3;
+    const int k = course_.axis, a = (k + 1) % 3, b = (k + 2) % 3;
     int32_t cell[3];
-    cell[axis_] = slab;
+    cell[k] = slab;
     cell[a] = base_[0] + coming.i;
     cell[b] = base_[1] + coming.j;
     Slot& slot = slots_.emplace_back();
     slot.list = memory_.struts.list({cell[0], cell[1], cell[2]});
-    slot.corner[axis_] = static_cast<float>((slab - base_slab_) * scale_[axis_]);
+    slot.corner[k] = static_cast<float>((slab - base_slab_) * scale_[k]);
     slot.corner[a] = static_cast<float>(coming.i * scale_[a]);
     slot.corner[b] = static_cast<float>(coming.j * scale_[b]);
     slot.radius = struts_.radius_in({cell[0], cell[1], cell[2]});
@@ -391,7 +303,7 @@ class Walker {
       rays &= ~same;
       entries_.met = entries_.missed = 0;
       if (const StrutLine& line = struts_.line(id); foam_.has_capsules() && line.has_line)
-        find_packet_entries(line, scale_, foam_.max_radius(), exact_, same, entries_);
+        find_packet_entries(line, scale_, foam_.max_radius(), rays_, same, entries_);
       for (; same; same &= same - 1) {
         const auto n = static_cast<size_t>(std::countr_zero(same));
         StrutEntry found;
@@ -401,7 +313,7 @@ class Walker {
           found.t = entries_.t[n];
           found.normal = foam_.neighbourhood().rotation.apply(normal);
         } else if (!(entries_.missed >> n & 1)) {
-          found = struts_.entry(ray_of(n), id);
+          found = struts_.entry(rays_.ray(n), id);
         }
         settled |= uint32_t{settle(n, last_[n], found)} << n;
       }
@@ -412,9 +324,9 @@ class Walker {
   /// Whether ray n ends in this slab before `last`, given its entry into the strut that it may meet
   /// first.
   bool settle(size_t n, double last, const StrutEntry& found) {
-    const double second = enter_[n] + double(hits_.second[n]);
+    const double second = path_.enter[n] + double(hits_.second[n]);
     if (found.is_met && (found.at_from || (found.t <= second && found.t <= last))) {
-      struts_.take(found, searches_[ray_[n]]);
+      struts_.take(found, search_of(n));
       return true;
     }
     if (second > last) return false;
@@ -423,11 +335,11 @@ class Walker {
 
   /// The same from all struts that the ray may meet in the slab's cells so far.
   bool settle_all(size_t n, double last) {
-    const FoamRay& own = ray_of(n);
+    const FoamRay own = rays_.ray(n);
     const float from = packet_.from[n];
     CapsuleRay alone;
     alone.to =
-        std::min(packet_.to[n], static_cast<float>(last - enter_[n]) + along_rounding) - from;
+        std::min(packet_.to[n], static_cast<float>(last - path_.enter[n]) + along_rounding) - from;
     first_.clear();
     for (const Slot& slot : slots_) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -435,10 +347,10 @@ class Walker {
         alone.origin[axis] =
             packet_.origin[axis][n] + alone.direction[axis] * from - slot.corner[axis];
       }
-      struts_.ask(own, slot.list, slot.radius, alone, enter_[n] + double(from), first_);
+      struts_.ask(own, slot.list, slot.radius, alone, path_.enter[n] + double(from), first_);
     }
     if (!first_.entry.is_met || first_.entry.t > last) return false;
-    struts_.take(first_.entry, searches_[ray_[n]]);
+    struts_.take(first_.entry, search_of(n));
     return true;
   }
 
@@ -453,23 +365,18 @@ class Walker {
   RayStruts<Struts> struts_;
   SingleRay<Struts> lone_;
 
-  FoamRay rays_[most];  // those from the current packet on
-  size_t set_up_ = 0;   // their end
+  // The rays that packets consist of, and where these begin in the batch.
+  PacketRays rays_;
+  size_t begin_ = 0, window_ = 0;
   // The current packet.
-  int axis_ = 0;
-  bool up_ = true;
-  size_t count_ = 0;
+  uint32_t live_ = 0;
+  PacketCourse course_;
   float room_ = 0;  // the maximum of its rays
-  uint32_t ray_[most], live_ = 0;
-  double inverse_[most];
   bool has_base_ = false;
   int32_t base_slab_ = 0, base_[2];
   PacketPath path_;
-  PacketRays exact_;
-  double enter_[most], step_[most];  // of t: at the first plane of the base, and per slab
-  double last_[most];                // t up to which rays know their struts
+  double last_[most];  // t up to which rays know their struts
   PacketEntries entries_;
-  int number_ = 0;  // of the current slab, relative to the base
   RayPacket packet_;
   // Relative to the base.
   PacketHits hits_;

@@ -16,9 +16,6 @@
 
 namespace msq {
 
-/// Slack for the rounding of positions along rays in single precision, foam units.
-constexpr float along_rounding = 4e-6f;
-
 /// The first strut that a ray meets, among those tested.
 struct FirstEntry {
   StrutEntry entry;
@@ -65,12 +62,11 @@ class RayStruts {
     lists_.forget();
     radii_.clear();
   }
-  /// As StrutEntries::set_ray().
-  void set_ray(const RaySearch& search, FoamRay& ray) const { entries_.set_ray(search, ray); }
+  const FoamFrame& frame() const { return entries_.frame(); }
 
-  /// How much thicker the sieve must make struts, foam units. No entry is farther from its strut
-  /// than this beyond the radius, or before the ray comes that near.
-  static float room(const FoamRay& ray) { return static_cast<float>(8 * ray.error); }
+  /// How much thicker the sieve must make struts for rays of this error, foam units. No entry is
+  /// farther from its strut than this beyond the radius, or before the ray comes that near.
+  static float room(double error) { return static_cast<float>(8 * error); }
 
   /// The maximum radius in a cell; below 0 if there are no struts.
   float radius_in(CellIndex cell) {
@@ -96,7 +92,7 @@ class RayStruts {
       ids_.resize(list.count + capsule_padding);
       from_.resize(list.count + capsule_padding);
     }
-    size_t count = capsules_on_ray(list, radius + room(ray), near, ids_.data(), from_.data());
+    size_t count = capsules_on_ray(list, radius + room(ray.error), near, ids_.data(), from_.data());
     for (; count > 0; --count) {
       size_t next = 0;
       for (size_t n = 1; n < count; ++n)

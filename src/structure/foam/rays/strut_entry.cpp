@@ -76,8 +76,7 @@ StrutEntries::StrutEntries(const FoamData& foam)
     : foam_(foam),
       radius_(foam.max_radius()),
       inverse_radius_(1 / radius_),
-      to_foam_(1 / foam.unit()),
-      tolerance_(foam.ray_tolerance() / foam.unit()) {}
+      frame_{&foam.neighbourhood(), 1 / foam.unit(), foam.ray_tolerance() / foam.unit()} {}
 
 bool StrutEntries::inside(const FoamRay& ray, double t) const {
   return foam_.inside(ray.model_point(t, foam_.unit()));
@@ -165,23 +164,20 @@ StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutLine& strut
   return entry;
 }
 
-void StrutEntries::set_ray(const RaySearch& search, FoamRay& ray) const {
-  const Neighbourhood& grid = foam_.neighbourhood();
-  const Vec3 origin = grid.to_grid(search.ray.origin) * to_foam_;
-  const Vec3 direction = grid.rotation.apply_inverse(search.ray.direction);
-  const double to = search.to * to_foam_;
+FoamRay FoamFrame::ray(const RaySearch& search) const {
+  FoamRay ray;
+  ray.origin = grid->to_grid(search.ray.origin) * to_foam;
+  ray.direction = grid->rotation.apply_inverse(search.ray.direction);
+  ray.from = search.from * to_foam;
+  ray.to = search.to * to_foam;
   // The error of points' coordinates is a few units of 2^-53 of their magnitude: here, and in
   // membership, which computes them in the model's frame first.
-  const double max =
-      std::max(std::max(max_magnitude(origin), max_magnitude(origin + direction * to)),
-               to_foam_ * max_coordinate(search.ray, search.to));
-  ray.origin = origin;
-  ray.direction = direction;
-  ray.from = search.from * to_foam_;
-  ray.to = to;
-  ray.error = 0x1p-51 * (8 + max);
-  ray.tolerance = std::max(tolerance_, coordinate_rounding(max));
+  const double max = std::max(std::max(max_magnitude(ray.origin), max_magnitude(ray.at(ray.to))),
+                              to_foam * max_coordinate(search.ray, search.to));
+  ray.error = coordinate_rounding(8 + max);
+  ray.tolerance = std::max(tolerance, coordinate_rounding(max));
   ray.search = &search;
+  return ray;
 }
 
 StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {

@@ -35,6 +35,15 @@ struct FoamRay {
   }
 };
 
+/// How rays are seen in a foam.
+struct FoamFrame {
+  const Neighbourhood* grid;
+  double to_foam;    ///< of lengths, from model units
+  double tolerance;  ///< of rays with small coordinates, foam units
+
+  FoamRay ray(const RaySearch& search) const;
+};
+
 struct StrutEntry {
   bool is_met = false;
   /// Whether every query of the strut finds this entry, with any data on its ends. Otherwise
@@ -67,6 +76,9 @@ class TaperedStrut;
 /// Slack for the error of ends, in single precision, and of the line that they are compared with.
 constexpr double end_error = 4 * edge_error;
 
+/// Slack for the rounding of positions along rays in single precision, foam units.
+constexpr float along_rounding = 4e-6f;
+
 /// Squared sine of an angle. A ray at a smaller angle to a line keeps its distance from it. It is
 /// far below the rounding of directions, except for rays exactly along a line.
 constexpr double parallel_squared = 1e-60;
@@ -87,14 +99,9 @@ class StrutEntries {
   void set_ends(const std::array<float, 3>& a, const std::array<float, 3>& b, CellIndex corner,
                 StrutLine& strut) const;
 
-  /// The ray in the frame that find() works in.
-  FoamRay ray(const RaySearch& search) const {
-    FoamRay ray;
-    set_ray(search, ray);
-    return ray;
-  }
-  /// The same in place, for many: a copy would wait for the numbers just written.
-  void set_ray(const RaySearch& search, FoamRay& ray) const;
+  /// The frame that find() works in.
+  const FoamFrame& frame() const { return frame_; }
+  FoamRay ray(const RaySearch& search) const { return frame_.ray(search); }
 
   /// Depends on ray and edge alone: the same bits in every query. May leave out entries into the
   /// strut where another strut covers its surface.
@@ -133,8 +140,7 @@ class StrutEntries {
 
   const FoamData& foam_;
   const double radius_, inverse_radius_;  // foam units
-  const double to_foam_;                  // of lengths, from model units
-  const double tolerance_;                // of rays with small coordinates, foam units
+  const FoamFrame frame_;
 };
 
 }  // namespace msq

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays of a packet in vectors, against single rays: the same bits in all instruction sets.
+#include <hwy/highway.h>
+
+#include <bit>
+#include <vector>
+
+#include "msq_test.h"
+#include "random.h"
+#include "structure/foam/rays/packet_path.h"
+#include "structure/foam/rays/packet_rays.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+constexpr size_t most = PacketRays::most;
+
+/// Rays that begin in a ball and have about the same direction.
+struct Packet {
+  Neighbourhood grid;
+  FoamFrame frame{&grid, 1.7, 1e-11};
+  std::vector<RaySearch> searches;
+  PacketRays rays;
+
+  explicit Packet(Random& random) : searches(1 + random.below(most)) {
+    grid.origin = random.in_box({{-9, -9, -9}, {9, 9, 9}});
+    if (random.below(2)) {
+      const double turn = random.between(0, 6);
+      grid.rotation.m = {
+          std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1};
+    }
+    const Vec3 centre = random.in_box({{-20, -20, -20}, {20, 20, 20}}), along = random.direction();
+    const double apart = random.between(0, 1.2), turned = random.below(2) ? 0 : 0.04;
+    for (RaySearch& search : searches) {
+      search.ray.origin = centre + random.direction() * apart;
+      const Vec3 d = along + random.direction() * turned;
+      search.ray.direction = d * (1 / length(d));
+      search.from = random.below(3) ? 0 : random.between(0, 1);
+      search.to = random.between(0, 30);
+    }
+    rays.set(frame, searches.data(), searches.size());
+  }
+  FoamRay ray(size_t n) const { return frame.ray(searches[n]); }
+  uint32_t live() const {
+    uint32_t live = 0;
+    for (size_t n = 0; n < searches.size(); ++n) live |= uint32_t{ray(n).from <= ray(n).to} << n;
+    return live;
+  }
+};
+
+void assert_near(double x, double y, double apart) {
+  assert_true(std::abs(x - y) <= apart);
+}
+
+template <class Check>
+void for_all_instruction_sets(size_t count, Check&& check) {
+  Random random(2);
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1) {
+    hwy::SetSupportedTargetsForTest(all & -all);
+    for (size_t n = test_count(count); n > 0; --n) check(random);
+    hwy::SetSupportedTargetsForTest(0);
+  }
+}
+
+void rays_have_the_bits_of_single_ones(void**) {
+  for_all_instruction_sets(20000, [](Random& random) {
+    const Packet packet(random);
+    for (size_t n = 0; n < packet.searches.size(); ++n) {
+      const FoamRay one = packet.ray(n), other = packet.rays.ray(n);
+      for (int axis = 0; axis < 3; ++axis) {
+        assert_true(one.origin[axis] == other.origin[axis]);
+        assert_true(one.direction[axis] == other.direction[axis]);
+      }
+      assert_true(one.from == other.from && one.to == other.to);
+      assert_true(one.error == other.error && one.tolerance == other.tolerance);
+      assert_ptr_equal(one.search, other.search);
+    }
+    for (size_t n = packet.searches.size(); n < most; ++n)
+      assert_true(packet.rays.from[n] > packet.rays.to[n]);
+  });
+}
+
+void rays_beside_a_ray(void**) {
+  for_all_instruction_sets(20000, [](Random& random) {
+    const Packet packet(random);
+    const size_t first = random.below(packet.searches.size());
+    const FoamRay ray = packet.ray(first);
+    const double apart = random.between(0.3, 1), turned = random.between(0.01, 0.1);
+    const uint32_t found = packet.rays.beside(first, apart, turned);
+    assert_true(found >> first & 1);
+    for (size_t n = 0; n < packet.searches.size(); ++n) {
+      const FoamRay other = packet.ray(n);
+      const Vec3 way = other.at(other.from) - ray.at(ray.from);
+      const double off = length(way - ray.direction * dot(way, ray.direction));
+      const double turn = length(other.direction - ray.direction);
+      if (std::abs(off - apart) > 1e-9 && std::abs(turn - turned) > 1e-9)
+        assert_int_equal(found >> n & 1, off < apart && turn < turned);
+    }
+  });
+}
+
+/// The course, the path from a plane on, and the rays that a strut may be met by.
+void paths_follow_their_rays(void**) {
+  size_t refused = 0, taken = 0;
+  for_all_instruction_sets(20000, [&](Random& random) {
+    const Packet packet(random);
+    const uint32_t live = packet.live();
+    if (!live) return;
+    const Vec3 scale = random.in_box({{0.5, 0.5, 0.5}, {2, 2, 2}});
+    PacketCourse course;
+    RayPacket floats;
+    if (!set_course(packet.rays, live, scale, course, floats)) {
+      ++refused;
+      return;
+    }
+    ++taken;
+    floats.count = packet.searches.size();
+    const int k = course.axis, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
+    PathBase base{(std::floor(course.begin / scale[k]) + !course.up) * scale[k], {}};
+    for (double& corner : base.corner) corner = random.between(-3, 3);
+    PacketPath path;
+    set_path(packet.rays, course, base, scale, live, path, floats);
+    bool starts = false;
+    double begin = course.up ? 1e300 : -1e300, error = 0;
+    for (uint32_t rest = live; rest; rest &= rest - 1) {
+      const auto n = static_cast<size_t>(std::countr_zero(rest));
+      const FoamRay ray = packet.ray(n);
+      const double d = ray.direction[k], place = ray.at(ray.from)[k];
+      assert_true(course.up ? d > 0 : d < 0);
+      begin = course.up ? std::min(begin, place) : std::max(begin, place);
+      error = std::max(error, ray.error);
+      // Where it crosses the plane and the next one, to the rounding of single precision.
+      assert_near(ray.at(path.enter[n])[k], base.plane, 1e-12);
+      assert_near(std::abs(path.way[n] * d), scale[k], 1e-12);
+      assert_true(path.step[n] == static_cast<float>(path.way[n]));
+      for (int side = 0; side < 2; ++side) {
+        const double in = ray.at(path.enter[n])[lateral[side]] - base.corner[side];
+        const double out = ray.at(path.enter[n] + path.way[n])[lateral[side]] - base.corner[side];
+        assert_near(path.place[side][n], in, 1e-5);
+        assert_near(path.place[side][n] + path.slope[side][n], out, 1e-5);
+        assert_true(floats.origin[lateral[side]][n] == path.place[side][n]);
+      }
+      assert_near(path.from[n], ray.from - path.enter[n], 1e-5);
+      assert_near(path.to[n], ray.to - path.enter[n], 1e-5);
+      assert_true(floats.from[n] <= std::max(0.0, ray.from - path.enter[n]));
+      assert_true(floats.to[n] >= ray.to - path.enter[n]);
+      starts |= ray.from >= path.enter[n];
+    }
+    for (size_t n = 0; n < most; ++n)
+      if (!(live >> n & 1)) assert_true(floats.from[n] > floats.to[n]);
+    assert_true(course.begin == begin && course.error == error);
+    if (starts) assert_true(floats.starts);
+
+    PacketHits hits;
+    hits.clear();
+    for (size_t n = 0; n < most; ++n)
+      if (random.below(2)) hits.first[n] = static_cast<float>(random.between(0, 3));
+    const int slab = static_cast<int>(random.below(4));
+    const double seen = random.below(2) ? std::numeric_limits<double>::infinity() : random.unit();
+    double last[most];
+    const uint32_t near = who_may_meet(packet.rays, path, slab, hits, live, seen, last);
+    assert_false(near & ~live);
+    for (uint32_t rest = live; rest; rest &= rest - 1) {
+      const auto n = static_cast<size_t>(std::countr_zero(rest));
+      const FoamRay ray = packet.ray(n);
+      const double enter = path.enter[n] + slab * path.way[n];
+      const double limit = std::min(
+          {ray.to, enter + path.way[n] + 0.5 * ray_list_margin, enter + seen * path.way[n]});
+      assert_true(last[n] == limit);
+      assert_int_equal(near >> n & 1, path.enter[n] + double(hits.first[n]) <= limit);
+    }
+  });
+  assert_true(taken > 10 * refused);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(rays_have_the_bits_of_single_ones),
+                              cmocka_unit_test(rays_beside_a_ray),
+                              cmocka_unit_test(paths_follow_their_rays)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
