@@ -65,6 +65,7 @@ const CellLists::Recent& CellLists::find_brick(CellIndex brick) {
     });
     number = static_cast<uint32_t>(bricks_.size());
     bricks_.push_back(std::static_pointer_cast<const RayBrick>(std::move(data)));
+    bricks_.back()->prefetch();
     brick_numbers_.emplace(brick, number);
   }
   return recent = {brick, bricks_[number].get(), number};

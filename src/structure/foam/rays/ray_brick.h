@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/simd.h"
 #include "cell/cache.h"
 #include "structure/foam/rays/owning_bricks.h"
 #include "structure/foam/seeds/seeds.h"
@@ -72,6 +73,17 @@ class RayBrick final : public CellData {
       bucket = bucket * static_cast<size_t>(size) + static_cast<size_t>(at);
     }
     return {listed_.data() + starts_[bucket], starts_[bucket + 1] - starts_[bucket]};
+  }
+
+  /// Begins to load the edges, which are read in any order, from main memory.
+  void prefetch() const {
+    constexpr size_t line = 64;
+    const auto load = [](const auto& values) {
+      const auto* const bytes = reinterpret_cast<const char*>(values.data());
+      for (size_t i = 0; i < values.size() * sizeof values[0]; i += line) hwy::Prefetch(bytes + i);
+    };
+    load(edges_);
+    load(nodes_);
   }
 
   uint64_t bytes() const override {
