@@ -72,12 +72,25 @@ void SkinCells::choose_steps() {
 
 void SkinCells::mark(const Job* job) {
   for (uint64_t k = alive_.z0; k < alive_.z1; k += side)
-    for (uint64_t j = alive_.y0; j < alive_.y1; j += side)
+    for (uint64_t j = alive_.y0; j < alive_.y1; j += side) {
+      find_alive_words(j, k);
       for (size_t w = 0; w < alive_.row_words(); ++w) {
+        if (!alive_words_[w]) continue;
         check_cancelled(job);
         set_brick(w, j, k);
         divide({{0, 0, 0}, {axes_[0].cells, axes_[1].cells, axes_[2].cells}});
       }
+    }
+}
+
+/// Row by row: words of one brick lie far apart in memory.
+void SkinCells::find_alive_words(uint64_t j0, uint64_t k0) {
+  alive_words_.assign(alive_.row_words(), 0);
+  for (uint64_t k = k0; k < std::min(k0 + side, alive_.z1); ++k)
+    for (uint64_t j = j0; j < std::min(j0 + side, alive_.y1); ++j) {
+      const uint64_t* const row = alive_.row(j, k);
+      for (size_t w = 0; w < alive_words_.size(); ++w) alive_words_[w] |= row[w];
+    }
 }
 
 void SkinCells::set_brick(uint64_t word, uint64_t j, uint64_t k) {

@@ -68,6 +68,7 @@ class SkinCells {
   void fill_cell(const Cells& cell);
   const Corner& corner(const uint32_t (&at)[3]);
 
+  void find_alive_words(uint64_t j, uint64_t k);
   uint64_t alive_word(uint32_t j, uint32_t k) const {
     return alive_.row(axes_[1].first + j, axes_[2].first + k)[axes_[0].first / bits_per_word];
   }
@@ -78,6 +79,7 @@ class SkinCells {
   const Skin& skin_;
   const BoundarySearch& search_;
   const RowBlock alive_, rows_;
+  std::vector<uint64_t> alive_words_;  // of the bricks in a row along x: what is alive in each
   const double error_, margin_;
   Axis axes_[3];
   uint32_t part_ = 0;  // where searches start
