@@ -72,7 +72,7 @@ class SeenIds {
   }
 
  private:
-  uint32_t ids_[256];
+  uint32_t ids_[512];
 };
 
 /// Bound on the error in the radius and in t, from rounding of the coordinates of rays and capsules
