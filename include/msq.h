@@ -883,7 +883,8 @@ typedef struct msq_shape_report {
   /** Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to
    * rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: that of the mesh with
    * capped holes, without pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of
-   * the solid values. Host shapes, booleans and offsets: NaN. */
+   * the solid values, as far as they are in the image's box. Host shapes, booleans and offsets:
+   * NaN. */
   double volume;
   /** Square model units. NaN for shapes without a formula: voxels, host shapes, booleans, offsets,
    * stretched shapes. Meshes: infinite or 0 if sides of triangles are above 1e75 or below 1e-75. */
@@ -2456,8 +2457,9 @@ MSQ_API msq_status msq_set_region(const msq_model* model, const msq_points_def* 
  *
  * The material is that of the finest resolved scale that has one, or of its skin inside the skin.
  * Where finer scales are not resolved, the host's material represents the mixture. Errors: ARGUMENT
- * (also if no resolved scale has a material, or none of their materials has a channel of that
- * name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API". */
+ * (also if no resolved scale of the model, or of one of its regions, has a material, or none of
+ * their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale
+ * Shape-Material Modeling API". */
 MSQ_API msq_status msq_point_material(const msq_model* model, const double point[3],
                                       const msq_query_def* query, const char* const* channels,
                                       uint64_t channel_count, uint32_t* id, double* values);

@@ -37,8 +37,7 @@ std::string_view require_name(const char* name, const char* what, uint64_t index
 /// Checks the channels that a query names against the materials that its points may have.
 std::vector<std::string_view> read_channels(const Model& model, const Scales& resolved,
                                             const char* const* channels, uint64_t count) {
-  if (!model.has_material(resolved))
-    fail(Status::argument, "no scale that the query resolves has a material");
+  require_material(model, resolved, "the query is for materials");
   if (count > max_channels)
     fail(Status::argument, "channel_count is %llu; it must be at most %llu",
          static_cast<unsigned long long>(count), static_cast<unsigned long long>(max_channels));

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/run_parts.h"
+#include "base/status.h"
 
 namespace msq {
 
@@ -30,6 +31,14 @@ void fill_group(const Group& group, const std::vector<std::string_view>& channel
 }
 
 }  // namespace
+
+void require_material(const Model& model, const Scales& resolved, const char* purpose) {
+  for (size_t r = 0; r < model.regions().size(); ++r)
+    if (!model.regions()[r]->has_material(resolved.regions[r]))
+      fail(Status::argument, "%s, and no resolved scale of region %zu has a material", purpose, r);
+  if (!model.has_material(resolved))
+    fail(Status::argument, "%s, and no resolved scale has a material", purpose);
+}
 
 void set_material(const Model& model, const Scales& resolved, const PointSet& points,
                   const QueryPlan& plan, const std::vector<std::string_view>& channels,

@@ -2,6 +2,7 @@
 #include "slice/layer_output.h"
 
 #include "base/status.h"
+#include "query/material.h"
 
 namespace msq {
 
@@ -45,8 +46,7 @@ const Structure& onset_structure(const OutputPlan& plan, const Model& model,
 namespace {
 
 void require_channel(const std::string& channel, const Model& model, const Scales& resolved) {
-  if (!model.has_material(resolved))
-    fail(Status::argument, "the output is a channel, and no resolved scale has a material");
+  require_material(model, resolved, "the output is a channel");
   for (const Material* material : model.materials(resolved))
     if (material->find(channel)) return;
   fail(Status::argument, "the output is channel %s, and no material of the model has it",
@@ -67,8 +67,7 @@ std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, con
     case LayerFormat::distance:
       return make_distance_output();
     case LayerFormat::material:
-      if (!model.has_material(resolved))
-        fail(Status::argument, "the output is materials, and no resolved scale has a material");
+      require_material(model, resolved, "the output is materials");
       return make_material_output();
     case LayerFormat::onset:
       return make_onset_output(onset_structure(plan, model, resolved), plan.is_onset_signed);

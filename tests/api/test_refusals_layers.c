@@ -172,6 +172,7 @@ static void slicers(void** state) {
     WRONG(UNSUPPORTED, "2 regions", outputs[0].output = MSQ_LAYER_ONSET; model = regions);
     WRONG(UNSUPPORTED, "scale 1 has none", outputs[0].output = MSQ_LAYER_ONSET; model = beams);
     WRONG(ARGUMENT, "material", outputs[0].output = MSQ_LAYER_MATERIAL);
+    WRONG(ARGUMENT, "material|region 0", outputs[0].output = MSQ_LAYER_MATERIAL; model = regions);
     WRONG(ARGUMENT, "output is 8|channel is NULL", outputs[0].output = MSQ_LAYER_CHANNEL);
     WRONG(ARGUMENT, "output is 3|channel is given", outputs[0].channel = "density");
     WRONG(ARGUMENT, "channel|no resolved scale has a material",

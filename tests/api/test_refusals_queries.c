@@ -6,6 +6,7 @@
 static msq_context* context;
 static msq_model* plain;       /* a lattice in a box */
 static msq_model *rich, *bare; /* materials at all scales; at the lattice alone */
+static msq_model* mixed;       /* of both */
 
 static int32_t no_points_inside(void* user, const msq_host_points* points, uint8_t* inside) {
   (void)user;
@@ -69,7 +70,9 @@ static void points(void** state) {
     WRONG(ARGUMENT, "257", count = 257);
     WRONG(ARGUMENT, "id is NULL", id = NULL);
     WRONG(ARGUMENT, "values is NULL", values = NULL);
-    WRONG(ARGUMENT, "no scale that the query resolves has a material", model = bare;
+    WRONG(ARGUMENT, "no resolved scale has a material", model = bare; query->length_scale = 2;
+          count = 0);
+    WRONG(ARGUMENT, "no resolved scale of region 1 has a material", model = mixed;
           query->length_scale = 2; count = 0);
     wrong_point(table, at);
     wrong_query(table, query);
@@ -241,11 +244,13 @@ int main(void) {
   plain = make_lattice_model(context);
   rich = make_material_model(context, 1, 1, 1);
   bare = make_material_model(context, 0, 1, 0);
+  assert_ok(msq_model_regions(context, (const msq_model*[]){rich, bare}, 2, &mixed));
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   msq_job_release(cancelled_job());
   msq_model_release(plain);
   msq_model_release(rich);
   msq_model_release(bare);
+  msq_model_release(mixed);
   msq_context_release(context);
   return failed;
 }

@@ -856,7 +856,7 @@ namespace Msq.Interop
         /// <summary>Bounding box.</summary>
         public fixed double min[3];
         public fixed double max[3];
-        /// <summary>Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: that of the mesh with capped holes, without pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN.</summary>
+        /// <summary>Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: that of the mesh with capped holes, without pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values, as far as they are in the image's box. Host shapes, booleans and offsets: NaN.</summary>
         public double volume;
         /// <summary>Square model units. NaN for shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if sides of triangles are above 1e75 or below 1e-75.</summary>
         public double area;
@@ -3862,7 +3862,7 @@ namespace Msq.Interop
 
         /// <summary>Material of one point. *id receives the id of its material, or MSQ_MATERIAL_VOID outside the model. values[c] receives the value of the channel named channels[c]; 0 outside, and where the material has no such channel. query NULL: defaults. channels and values may be NULL if channel_count is 0.</summary>
         /// <remarks>
-        /// <para>The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material represents the mixture. Errors: ARGUMENT (also if no resolved scale has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".</para>
+        /// <para>The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material represents the mixture. Errors: ARGUMENT (also if no resolved scale of the model, or of one of its regions, has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]

@@ -810,7 +810,7 @@ pub struct msq_shape_report {
     /// Bounding box.
     pub min: [f64; 3],
     pub max: [f64; 3],
-    /// Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: that of the mesh with capped holes, without pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN.
+    /// Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: that of the mesh with capped holes, without pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values, as far as they are in the image's box. Host shapes, booleans and offsets: NaN.
     pub volume: f64,
     /// Square model units. NaN for shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if sides of triangles are above 1e75 or below 1e-75.
     pub area: f64,
@@ -2474,7 +2474,7 @@ extern "C" {
     pub fn msq_set_region(model: *const msq_model, points: *const msq_points_def, regions: *mut i32, region_count: u64, job: *mut msq_job) -> msq_status;
     /// Material of one point. *id receives the id of its material, or MSQ_MATERIAL_VOID outside the model. values[c] receives the value of the channel named channels[c]; 0 outside, and where the material has no such channel. query NULL: defaults. channels and values may be NULL if channel_count is 0.
     ///
-    /// The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material represents the mixture. Errors: ARGUMENT (also if no resolved scale has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".
+    /// The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material represents the mixture. Errors: ARGUMENT (also if no resolved scale of the model, or of one of its regions, has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".
     pub fn msq_point_material(model: *const msq_model, point: *const f64, query: *const msq_query_def, channels: *const *const c_char, channel_count: u64, id: *mut u32, values: *mut f64) -> msq_status;
     /// Materials of a set: ids[i] and values[i * channel_count + c] receive, bit for bit, the result of msq_point_material for point i. id_count must be the number of points, value_count channel_count times that. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave the arrays partly written. Cost: msq_set_membership plus a byte per point; channels are evaluated at the points inside. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
     pub fn msq_set_material(model: *const msq_model, points: *const msq_points_def, query: *const msq_query_def, channels: *const *const c_char, channel_count: u64, ids: *mut u32, id_count: u64, values: *mut f64, value_count: u64, job: *mut msq_job) -> msq_status;
