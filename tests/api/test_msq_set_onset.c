@@ -216,6 +216,62 @@ static void of_unions_is_the_least(void** state) {
   msq_field_release(radius);
 }
 
+/* Takes `structure`. */
+static void check_limit(msq_structure* structure, double limit) {
+  int beyond = 0;
+  ask(structure, MSQ_ONSET_PLAIN);
+  for (int i = 0; i < count; ++i) {
+    if (onsets[i] == INFINITY)
+      ++beyond;
+    else
+      assert_true(onsets[i] <= limit);
+  }
+  assert_in_range(beyond, 1, count - 1);
+  msq_structure_release(structure);
+}
+
+/* Of cells that are short along x: points are farther from everything than the limit. */
+static void beyond_the_limit_is_infinite(void** state) {
+  static const double nodes[3][3] = {{0, 0, 0}, {0.1, 0.1, 0.1}, {0.1, 0, 0}}, factors[1] = {0.5};
+  static const uint32_t corners[3] = {0, 1, 2};
+  static const double sizes[3] = {0.5, 14, 14}, foam_sizes[3] = {0.5, 2, 2};
+  msq_lattice_def lattice;
+  msq_plate_lattice_def plates;
+  msq_foam_def foam;
+  msq_structure* made;
+  (void)state;
+  assert_ok(msq_lattice_def_init(&lattice, sizeof lattice));
+  lattice.unit_cell = MSQ_UNIT_CELL_CUSTOM;
+  memcpy(lattice.grid.cell_size, sizes, sizeof sizes);
+  lattice.radius.value = 0.1;
+  lattice.nodes = nodes[0];
+  lattice.node_count = 2;
+  lattice.struts = corners;
+  lattice.strut_count = 1;
+  assert_ok(msq_structure_lattice(context, &lattice, &made));
+  check_limit(made, 2);
+  lattice.strut_factors = factors;
+  assert_ok(msq_structure_lattice(context, &lattice, &made));
+  check_limit(made, 4);
+  assert_ok(msq_plate_lattice_def_init(&plates, sizeof plates));
+  plates.plate_cell = MSQ_PLATE_CELL_CUSTOM;
+  plates.grid = lattice.grid;
+  plates.thickness.value = 0.1;
+  plates.nodes = nodes[0];
+  plates.node_count = 3;
+  plates.faces = corners;
+  plates.face_count = 1;
+  assert_ok(msq_structure_plate_lattice(context, &plates, &made));
+  check_limit(made, 2);
+  for (int has_walls = 0; has_walls < 2; ++has_walls) {
+    assert_ok(msq_foam_def_init(&foam, sizeof foam));
+    memcpy(foam.grid.cell_size, foam_sizes, sizeof foam_sizes);
+    (has_walls ? &foam.wall_thickness : &foam.radius)->value = 0.1;
+    assert_ok(msq_structure_foam(context, &foam, &made));
+    check_limit(made, 0.5);
+  }
+}
+
 static void grids_and_windows_have_the_values_of_their_points(void** state) {
   enum { n = 6 };
   msq_structure* foam = make_foam(context, MSQ_FOAM_DIRECT);
@@ -248,6 +304,7 @@ int main(void) {
       cmocka_unit_test(of_functions_is_the_function),
       cmocka_unit_test(its_sign_is_membership),
       cmocka_unit_test(of_unions_is_the_least),
+      cmocka_unit_test(beyond_the_limit_is_infinite),
       cmocka_unit_test(grids_and_windows_have_the_values_of_their_points),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);

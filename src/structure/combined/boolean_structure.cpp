@@ -7,6 +7,7 @@
 #include "base/infinity.h"
 #include "structure/combined/member_lines.h"
 #include "structure/combined/union_struts.h"
+#include "structure/common/known_onset.h"
 #include "structure/common/struts.h"
 
 namespace msq {
@@ -69,7 +70,7 @@ bool BooleanStructure::has_onset() const {
 double BooleanStructure::onset(Vec3 p) const {
   double onset = infinity;
   for (const Ref<const Structure>& member : members()) onset = std::min(onset, member->onset(p));
-  return onset <= onset_limit() ? onset : infinity;
+  return known_onset(*this, onset);
 }
 
 double BooleanStructure::parameter(Vec3 p) const {

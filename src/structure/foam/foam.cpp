@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "structure/common/group_by_cell.h"
+#include "structure/common/known_onset.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/foam/joints/foam_struts.h"
 #include "structure/foam/paper/method_1.h"
@@ -39,9 +40,17 @@ bool Foam::inside(Vec3 p) const {
   return inside(neighbourhood().locate(p), p);
 }
 
+namespace {
+
+double axis_distance(const Foam& foam, Vec3 p) {
+  const Neighbourhood::Located located = foam.neighbourhood().locate(p);
+  return foam.unit() * foam.graph().onset(located.cell, located.fraction * foam.seeds().scale());
+}
+
+}  // namespace
+
 double Foam::onset(Vec3 p) const {
-  const Neighbourhood::Located located = neighbourhood().locate(p);
-  return unit() * graph().onset(located.cell, located.fraction * seeds().scale());
+  return known_onset(*this, axis_distance(*this, p));
 }
 
 double Foam::onset_error() const {
@@ -49,7 +58,7 @@ double Foam::onset_error() const {
 }
 
 double Foam::distance_bound(Vec3 p) const {
-  const double axis = onset(p);
+  const double axis = axis_distance(*this, p);
   const double slack = onset_error() * unit() + locating_slack(p - neighbourhood().origin, axis);
   return strut_distance_bound(axis, slack, radius(), p);
 }

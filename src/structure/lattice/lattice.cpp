@@ -2,6 +2,7 @@
 #include "structure/lattice/lattice.h"
 
 #include "structure/common/grid_boxes.h"
+#include "structure/common/known_onset.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/common/strut_rows.h"
 #include "structure/lattice/cell/may_reach.h"
@@ -173,7 +174,7 @@ double Lattice::onset(Vec3 p) const {
                                            onset_clusters);
   });
   const Vec3 fraction = neighbourhood().locate(p).fraction;
-  return onsets.onset(fraction, fraction * size);
+  return known_onset(*this, onsets.onset(fraction, fraction * size));
 }
 
 const RowStruts& Lattice::row_struts() const {

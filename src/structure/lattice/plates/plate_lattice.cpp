@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "structure/common/known_onset.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/lattice/plates/plate_lines.h"
 #include "structure/lattice/rows/lattice_rows.h"
@@ -146,7 +147,7 @@ double PlateLattice::onset(Vec3 p) const {
                                            onset_clusters);
   });
   const Vec3 fraction = neighbourhood().locate(p).fraction;
-  return 2 * onsets.onset(fraction, fraction * size);
+  return known_onset(*this, 2 * onsets.onset(fraction, fraction * size));
 }
 
 bool PlateLattice::find(bool wanted, const Ray& ray, double from, double to, double& t,

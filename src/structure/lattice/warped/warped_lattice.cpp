@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "structure/common/known_onset.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/common/strut_rows.h"
 #include "structure/lattice/warped/recent_lists.h"
@@ -110,7 +111,7 @@ double WarpedLattice::onset(Vec3 p) const {
   const double onset = least(
       q, [](double distance, double f) { return distance / f; },
       [&](double onset_so_far) { return std::min(onset_so_far, limit) * factor; });
-  return onset <= limit ? onset : infinity;
+  return known_onset(*this, onset);
 }
 
 std::unique_ptr<StrutParts> WarpedLattice::struts(const StrutSelection& selection) const {
