@@ -1103,9 +1103,9 @@ MSQ_API msq_status msq_shape_distance_field_def_init(msq_shape_distance_field_de
  * nearest point of the border. The error inside is below step * sqrt(3), and far smaller away from
  * edges and medial surfaces. Cost: without a step, that of msq_point_distance per point and strut
  * (microseconds), and the tree of a mesh's triangles, which this call builds; with a step, that of
- * msq_field_grid with 4-byte values. Errors: ARGUMENT (also more than 2^20 steps along an axis, and
- * distances that exceed a float), LIMIT (memory limit of the context), UNSUPPORTED (all space),
- * HOST, CANCELLED, MEMORY. */
+ * msq_field_grid with 4-byte values. Errors: ARGUMENT (also more than 2^20 steps along an axis, a
+ * step below 1.2e-38, and distances that exceed a float), LIMIT (memory limit of the context),
+ * UNSUPPORTED (all space), HOST, CANCELLED, MEMORY. */
 MSQ_API msq_status msq_field_shape_distance(msq_context* context,
                                             const msq_shape_distance_field_def* def,
                                             msq_field** field, msq_job* job);

@@ -33,6 +33,11 @@ double ShapeDistanceField::lipschitz() const {
 
 Image sample_distance(const Shape& shape, double step, const Executor& executor,
                       const std::shared_ptr<MemoryBudget>& budget, Job* job) {
+  // Below it floats lose digits, and then all.
+  constexpr double min_step = std::numeric_limits<float>::min();
+  if (!(step >= min_step))
+    fail(Status::argument, "step is %g; it must be at least %g, as distances are kept as floats",
+         step, min_step);
   const Box3& box = shape.bounds();
   const double farthest = length(box.extent()) + 4 * step;
   if (!(farthest <= std::numeric_limits<float>::max()))

@@ -58,6 +58,22 @@ static int32_t distance_until_cancelled(void* user, const double* points, uint64
   return 0;
 }
 
+/* Of a ball so small that floats do not hold the distances between samples. */
+static void tiny_steps_are_refused(void** state) {
+  static const double center[3] = {0, 0, 0};
+  msq_context* context = make_context();
+  msq_shape* ball;
+  msq_shape_distance_field_def def;
+  (void)state;
+  assert_ok(msq_shape_from_sphere(context, center, 1e-39, &ball));
+  def = distance_def(ball);
+  def.step = 1e-40;
+  assert_makes_nothing(msq_field, msq_field_shape_distance(context, &def, &made, NULL),
+                       MSQ_E_ARGUMENT, "step is 1e-40; it must be at least 1.17549e-38");
+  msq_shape_release(ball);
+  msq_context_release(context);
+}
+
 static void job_cancels_and_tells_the_progress(void** state) {
   msq_context* context = make_context();
   msq_shape* shape = make_cube_mesh(context);
@@ -103,6 +119,7 @@ static void job_cancels_and_tells_the_progress(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(field_is_the_curve_over_the_distance),
+      cmocka_unit_test(tiny_steps_are_refused),
       cmocka_unit_test(job_cancels_and_tells_the_progress),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
