@@ -110,6 +110,29 @@ static void bad_places(void** state) {
   remove(path);
 }
 
+/* Names may be as long as the system lets them be, which is 255 bytes on most. */
+static void long_names(void** state) {
+  (void)state;
+  static const struct {
+    const char* text;
+    int count;
+  } of[] = {{"a", 240}, {"a", 241}, {"a", 255}, {"\xe9\xaa\xa8", 85}, {"\xf0\x9f\x98\x80", 63}};
+  for (size_t i = 0; i < sizeof of / sizeof of[0]; ++i) {
+    char path[512];
+    int length = snprintf(path, sizeof path, "%s/", folder);
+    for (int k = 0; k < of[i].count; ++k)
+      length += snprintf(path + length, sizeof path - (size_t)length, "%s", of[i].text);
+    msq_io_file* file;
+    assert_ok(msq_io_file_create(path, 0, &file));
+    assert_ok(msq_io_file_write(file, "long", 4));
+    assert_int_equal(count_files(folder), 1);
+    assert_ok(msq_io_file_finish(file));
+    msq_io_file_release(file);
+    assert_file_is(path, "long");
+    remove(path);
+  }
+}
+
 static void a_replaced_file_keeps_its_mode(void** state) {
   (void)state;
   const char* path = in_folder("file");
@@ -224,6 +247,7 @@ int main(void) {
                                      cmocka_unit_test(name_is_taken),
                                      cmocka_unit_test(parts),
                                      cmocka_unit_test(bad_places),
+                                     cmocka_unit_test(long_names),
                                      cmocka_unit_test(a_replaced_file_keeps_its_mode),
                                      cmocka_unit_test(full_disk)};
   return cmocka_run_group_tests(tests, make_folder, end_folder);

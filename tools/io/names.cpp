@@ -60,8 +60,17 @@ fs::path temporary_name(const fs::path& folder, const fs::path& name) {
   std::string letters;
   for (int i = 0; i < 8; ++i, bits <<= 5)
     letters += "abcdefghijklmnopqrstuvwxyz234567"[bits >> 59 & 31];
+  // With the dots and letters it has at most the 255 bytes that a name may have. None of its
+  // characters is cut.
+  constexpr size_t max_kept = 240;
+  auto kept = name.u8string();
+  if (kept.size() > max_kept) {
+    size_t end = max_kept;
+    while (end > 0 && (static_cast<unsigned char>(kept[end]) & 0xc0) == 0x80) --end;
+    kept.resize(end);
+  }
   fs::path made = folder / ".";
-  made += name;
+  made += fs::path(kept);
   made += "." + letters + ".part";
   return made;
 }

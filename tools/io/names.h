@@ -21,7 +21,8 @@ std::string read_prefix(const char* prefix, const char* fallback, const char* na
 std::string numbered_name(const std::string& prefix, uint64_t number, uint32_t digits,
                           const char* extension);
 
-/// ".<name>.<letters>.part" in the folder; other letters at each call.
+/// ".<name>.<letters>.part" in the folder; other letters at each call. Of a long name it has the
+/// beginning.
 std::filesystem::path temporary_name(const std::filesystem::path& folder,
                                      const std::filesystem::path& name);
 
