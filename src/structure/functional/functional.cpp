@@ -110,12 +110,11 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
 }
 
 const Functional::Prepared& Functional::prepared() const {
-  std::call_once(once_, [this] {
+  return prepared_.get([this] {
     Clusters clusters(onset_, side_, level_.range());
     std::vector<RowPlan> plans = msq::row_plans(clusters, sample_axis_);
-    prepared_ = Prepared{std::move(clusters), std::move(plans)};
+    return std::make_unique<const Prepared>(std::move(clusters), std::move(plans));
   });
-  return *prepared_;
 }
 
 double Functional::value(Vec3 p) const {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <mutex>
 #include <optional>
 
 #include "base/lazy.h"
@@ -143,8 +142,7 @@ class Functional final : public Structure, public RepeatingStructure {
   std::array<Lazy<Slope>, 41> slope_;
   size_t slopes_ = 1;
   bool has_steepest_ = true;  // whether the last frequency is the largest there is
-  mutable std::once_flag once_;
-  mutable std::optional<Prepared> prepared_;
+  Lazy<Prepared> prepared_;
   std::array<Lazy<RowPlan>, 2> warped_plans_;
   Lazy<std::optional<RowPlan>> wave_plan_;
 };
