@@ -64,12 +64,14 @@ static inline double random_between(uint64_t* state, double low, double high) {
 
 /* ---- contexts -------------------------------------------------------------------------------- */
 
+/* With so many threads on any machine. 0: one per core. */
 static inline msq_context* make_context_of(uint32_t threads, uint64_t cache_bytes,
                                            uint64_t memory_limit) {
   msq_context_def def;
   msq_context* context;
   assert_ok(msq_context_def_init(&def, sizeof def));
   def.threads = threads;
+  def.beyond_cores = 1;
   def.cache_bytes = cache_bytes;
   def.memory_limit = memory_limit;
   assert_ok(msq_context_create(&def, &context));
