@@ -10,7 +10,7 @@
 
 namespace msq {
 
-/// What the rays of a model have in common. t up to `beyond` past the end of a search are asked.
+/// What the rays of a model have in common. They are followed up to `beyond` past their ends.
 struct StartBoxes {
   Box3 bounds, near;  ///< of the shape; and with rounding of points of rays
   double beyond;
