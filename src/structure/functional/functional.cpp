@@ -113,7 +113,7 @@ const Functional::Prepared& Functional::prepared() const {
   return prepared_.get([this] {
     Clusters clusters(onset_, side_, level_.range());
     std::vector<RowPlan> plans = msq::row_plans(clusters, sample_axis_);
-    return std::make_unique<const Prepared>(std::move(clusters), std::move(plans));
+    return std::make_unique<const Prepared>(Prepared{std::move(clusters), std::move(plans)});
   });
 }
 
