@@ -32,6 +32,21 @@ HWY_INLINE Lanes3<D> set_lanes(D d, Vec3 v) {
           hn::Set(d, static_cast<T>(v.z))};
 }
 
+/// From component by component, aligned to vectors; and back.
+template <class D, size_t N>
+HWY_INLINE Lanes3<D> load_lanes(D d, const hwy::HWY_NAMESPACE::TFromD<D> (&v)[3][N], size_t i) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  return {hn::Load(d, v[0] + i), hn::Load(d, v[1] + i), hn::Load(d, v[2] + i)};
+}
+template <class D, size_t N>
+HWY_INLINE void store_lanes(D d, const Lanes3<D>& v, hwy::HWY_NAMESPACE::TFromD<D> (&to)[3][N],
+                            size_t i) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  hn::Store(v.x, d, to[0] + i);
+  hn::Store(v.y, d, to[1] + i);
+  hn::Store(v.z, d, to[2] + i);
+}
+
 template <class D>
 HWY_INLINE Lanes3<D> subtract(const Lanes3<D>& a, const Lanes3<D>& b) {
   namespace hn = hwy::HWY_NAMESPACE;

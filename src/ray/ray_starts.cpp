@@ -69,9 +69,7 @@ void start(const RaySearch* searches, size_t count, const StartBoxes& boxes, Ray
     const M begins = hn::And(meets, contains(boxes.near, place));
     const V end = hn::Sub(high, low);
     hn::Store(low, d, starts.offset + lane);
-    hn::Store(place.x, d, starts.origin[0] + lane);
-    hn::Store(place.y, d, starts.origin[1] + lane);
-    hn::Store(place.z, d, starts.origin[2] + lane);
+    store_lanes(d, place, starts.origin, lane);
     hn::Store(end, d, starts.end + lane);
     starts.miss |= static_cast<uint32_t>(bits_of(d, hn::Not(meets))) << lane;
     starts.begin |= static_cast<uint32_t>(bits_of(d, begins)) << lane;

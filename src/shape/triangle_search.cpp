@@ -25,10 +25,6 @@ using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 using Vector = Lanes3<D>;
 
-HWY_INLINE Vector load3(D d, const double (&from)[3][tree_width], size_t i) {
-  return {hn::Load(d, from[0] + i), hn::Load(d, from[1] + i), hn::Load(d, from[2] + i)};
-}
-
 HWY_INLINE V edge_squared(D d, const Vector& w, const Vector& ab, const double* inverse) {
   const V t = clamp01(d, hn::Mul(dot<D>(w, ab), hn::Load(d, inverse)));
   const Vector away = subtract<D>(w, scale<D>(ab, t));
@@ -38,7 +34,8 @@ HWY_INLINE V edge_squared(D d, const Vector& w, const Vector& ab, const double* 
 /// TreeTriangle::distance_squared() of the triangles of a block from i on.
 HWY_INLINE V distances_squared(D d, const TriangleBlock& block, const Vector& p, size_t i) {
   const V zero = hn::Zero(d), far = hn::Set(d, std::numeric_limits<double>::infinity());
-  const Vector a = load3(d, block.a, i), u = load3(d, block.u, i), v = load3(d, block.v, i);
+  const Vector a = load_lanes(d, block.a, i), u = load_lanes(d, block.u, i),
+               v = load_lanes(d, block.v, i);
   const V inverse = hn::Load(d, block.inverse_normal_squared + i);
   const Vector w = subtract<D>(p, a), normal = cross<D>(u, v);
   const V of_u = hn::Mul(dot<D>(cross<D>(w, v), normal), inverse);
@@ -71,13 +68,14 @@ HWY_INLINE V over(D d, V value, V than) {
 /// limit, it may be any bound that is.
 HWY_INLINE V bounds_squared(D d, const BoundNode& node, const Vector& p, V limit, size_t i) {
   const V zero = hn::Zero(d);
-  const Vector low = subtract<D>(load3(d, node.min, i), p);
-  const Vector high = subtract<D>(p, load3(d, node.max, i));
+  const Vector low = subtract<D>(load_lanes(d, node.min, i), p);
+  const Vector high = subtract<D>(p, load_lanes(d, node.max, i));
   const Vector gap = {hn::Max(hn::Max(low.x, high.x), zero), hn::Max(hn::Max(low.y, high.y), zero),
                       hn::Max(hn::Max(low.z, high.z), zero)};
   const V of_box = fast_dot<D>(gap, gap);
   if (hn::AllFalse(d, hn::Lt(of_box, limit))) return of_box;
-  const Vector w = subtract<D>(p, load3(d, node.centre, i)), normal = load3(d, node.normal, i);
+  const Vector w = subtract<D>(p, load_lanes(d, node.centre, i)),
+               normal = load_lanes(d, node.normal, i);
   const V along = fast_dot<D>(normal, w);
   const V above = over(d, hn::Abs(along), hn::Load(d, node.half_height + i));
   const Vector across = fast_add_scaled<D>(w, normal, hn::Neg(along));
@@ -199,7 +197,8 @@ uint32_t cross_triangles(const TriangleBlock& block, const Ray& ray, double from
   const V zero = hn::Zero(d), one = hn::Set(d, 1);
   const Vector origin = set_lanes(d, ray.origin), direction = set_lanes(d, ray.direction);
   for (size_t i = 0; i < tree_width; i += hn::Lanes(d)) {
-    const Vector a = load3(d, block.a, i), u = load3(d, block.u, i), v = load3(d, block.v, i);
+    const Vector a = load_lanes(d, block.a, i), u = load_lanes(d, block.u, i),
+                 v = load_lanes(d, block.v, i);
     const Vector away = cross<D>(direction, v), normal = cross<D>(u, v);
     const V across = dot<D>(away, u), size = hn::Sqrt(dot<D>(normal, normal));
     // Nearly along the plane, the error of t is margin over the slope.

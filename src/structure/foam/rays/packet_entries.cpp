@@ -22,10 +22,6 @@ using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 using Vector = Lanes3<D>;
 
-HWY_INLINE Vector load3(const double (&v)[3][PacketRays::most], size_t lane) {
-  const D d;
-  return {hn::Load(d, v[0] + lane), hn::Load(d, v[1] + lane), hn::Load(d, v[2] + lane)};
-}
 HWY_INLINE Vector add(const Vector& a, const Vector& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }
@@ -49,7 +45,7 @@ void find(const StrutLine& strut, Vec3 cell, double radius, const PacketRays& ra
   for (size_t lane = 0; lane < PacketRays::most; lane += hn::Lanes(d)) {
     const uint32_t here = which >> lane & all;
     if (!here) continue;
-    const Vector origin = load3(rays.origin, lane), u = load3(rays.direction, lane);
+    const Vector origin = load_lanes(d, rays.origin, lane), u = load_lanes(d, rays.direction, lane);
     const V error = hn::Add(hn::Load(d, rays.error + lane), hn::Set(d, strut.error));
     const V tolerance = hn::Load(d, rays.tolerance + lane);
     const Vector o = subtract(origin, home);
@@ -84,9 +80,7 @@ void find(const StrutLine& strut, Vec3 cell, double radius, const PacketRays& ra
     found.met |= (static_cast<uint32_t>(bits_of(d, met)) & here) << lane;
     hn::Store(in, d, found.t + lane);
     const Vector normal = scale(add(p, scale(q, hn::Sub(in, t0))), inverse_radius);
-    hn::Store(normal.x, d, found.normal[0] + lane);
-    hn::Store(normal.y, d, found.normal[1] + lane);
-    hn::Store(normal.z, d, found.normal[2] + lane);
+    store_lanes(d, normal, found.normal, lane);
   }
 }
 

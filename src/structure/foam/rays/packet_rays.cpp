@@ -21,16 +21,6 @@ using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
 using Vector = Lanes3<D>;
 
-HWY_INLINE Vector load3(const double (&v)[3][PacketRays::most], size_t lane) {
-  const D d;
-  return {hn::Load(d, v[0] + lane), hn::Load(d, v[1] + lane), hn::Load(d, v[2] + lane)};
-}
-HWY_INLINE void store3(const Vector& v, double (&to)[3][PacketRays::most], size_t lane) {
-  const D d;
-  hn::Store(v.x, d, to[0] + lane);
-  hn::Store(v.y, d, to[1] + lane);
-  hn::Store(v.z, d, to[2] + lane);
-}
 HWY_INLINE V largest(const Vector& v) {
   return hn::Max(hn::Max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
@@ -55,8 +45,8 @@ void set(const FoamFrame& frame, const RaySearch* first, size_t count, PacketRay
     const V in_grid = hn::Max(largest(origin), largest(add_scaled(origin, direction, to)));
     const V in_model = hn::Max(largest(o), largest(add_scaled(o, u, own_to)));
     const V max = hn::Max(in_grid, hn::Mul(to_foam, in_model));
-    store3(origin, rays.origin, lane);
-    store3(direction, rays.direction, lane);
+    store_lanes(d, origin, rays.origin, lane);
+    store_lanes(d, direction, rays.direction, lane);
     hn::Store(hn::Mul(lanes.from, to_foam), d, rays.from + lane);
     hn::Store(to, d, rays.to + lane);
     hn::Store(hn::Mul(rounding, hn::Add(hn::Set(d, 8), max)), d, rays.error + lane);
@@ -75,9 +65,9 @@ uint32_t beside(const PacketRays& rays, size_t first, double max_apart, double m
   const Vector u = set_lanes(d, along), from = set_lanes(d, rays.at(first, rays.from[first]));
   uint32_t found = 0;
   for (size_t lane = 0; lane < PacketRays::most; lane += hn::Lanes(d)) {
-    const Vector direction = load3(rays.direction, lane), turned = subtract(direction, u);
+    const Vector direction = load_lanes(d, rays.direction, lane), turned = subtract(direction, u);
     const Vector begin =
-        add_scaled(load3(rays.origin, lane), direction, hn::Load(d, rays.from + lane));
+        add_scaled(load_lanes(d, rays.origin, lane), direction, hn::Load(d, rays.from + lane));
     const Vector apart = subtract(begin, from);
     const Vector across = subtract(apart, scale(u, dot(apart, u)));
     const auto is_beside = hn::And(hn::Le(dot(turned, turned), hn::Set(d, max_turned * max_turned)),
