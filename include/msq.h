@@ -2429,8 +2429,9 @@ MSQ_API msq_status msq_point_membership(const msq_model* model, const double poi
  * Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser
  * one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY
  * may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in
- * any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room.
- * Grids cost far less per point, as slices do. Stratified samples need no grouping and no memory.
+ * any order, with 0.2 MB per thread, and 6 bytes per point and at most 15 MB. The latter become
+ * less, down to 0.1 MB, if the memory limit leaves no room. Grids cost far less per point, as
+ * slices do. Stratified samples need no grouping and no memory.
  * Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY.
  * Source: paper, section "Set-based queries". */
 MSQ_API msq_status msq_set_membership(const msq_model* model, const msq_points_def* points,

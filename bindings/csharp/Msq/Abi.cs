@@ -3829,7 +3829,7 @@ namespace Msq.Interop
 
         /// <summary>Membership of a set: inside[i] receives 1 or 0 for point i. inside_count must be the number of points. query NULL: defaults. job NULL: no job.</summary>
         /// <remarks>
-        /// <para>Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room. Grids cost far less per point, as slices do. Stratified samples need no grouping and no memory. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".</para>
+        /// <para>Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in any order, with 0.2 MB per thread, and 6 bytes per point and at most 15 MB. The latter become less, down to 0.1 MB, if the memory limit leaves no room. Grids cost far less per point, as slices do. Stratified samples need no grouping and no memory. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
