@@ -17,11 +17,12 @@
  * also if msq itself failed in a call of msq_io.
  *
  * Files. Paths are in UTF-8. A file gets its name when it is complete. Until then it has a
- * temporary name in the same folder, ".<name>.<letters>.part", with the first 240 bytes of a longer
- * name. After a failure, a cancelled call or on a full disk neither file is left. A process that is
- * killed, or ends before msq_io_writer_release, leaves the temporary file. Folders of a path must
- * exist. replace 0: if a file of this name exists, it stays as it is, and the call returns
- * MSQ_E_IO. replace 1: the new file replaces it in one step and keeps its permissions.
+ * temporary name in the same folder, ".<name>.<letters>.part", with the whole characters in the
+ * first 240 bytes of a longer name. After a failure, a cancelled call or on a full disk neither
+ * file is left. A process that is killed, or ends before msq_io_writer_release, leaves the
+ * temporary file. Folders of a path must exist. replace 0: if a file of this name exists, it stays
+ * as it is, and the call returns MSQ_E_IO. replace 1: the new file replaces it in one step and
+ * keeps its permissions.
  *
  * Same bytes. The bytes of a file depend on the layers and on the definitions, not on the number of
  * threads or the clock.

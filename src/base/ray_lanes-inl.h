@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-#if HWY_TARGET != HWY_SCALAR  // which has no blocks
+#if HWY_TARGET != HWY_SCALAR  // which has no such parts of vectors
 /// Blocks are pairs of numbers. Of two vectors a, b: a0 b0 a2 b2, or a1 b1 a3 b3.
 template <class D, class V = hwy::HWY_NAMESPACE::Vec<D>>
 HWY_INLINE V even_blocks(D, V a, V b) {
@@ -33,7 +33,7 @@ HWY_INLINE V odd_blocks(D, V a, V b) {
 }
 #endif
 
-/// Searches [lane, lane + lanes) of `count` ones; behind the last one, it again.
+/// The searches from `lane` on. Lanes beyond the last of `count` searches repeat it.
 template <class D>
 struct SearchLanes {
   using V = hwy::HWY_NAMESPACE::Vec<D>;

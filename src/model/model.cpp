@@ -189,9 +189,6 @@ const Material* Model::material(Vec3 p, const Scales& resolved, uint32_t& part) 
 }
 
 bool Model::has_material(const Scales& resolved) const {
-  for (size_t r = 0; r < regions_.size(); ++r)
-    if (!regions_[r]->has_material(resolved.regions[r])) return false;
-  if (!regions_.empty()) return true;
   for (const Scale* scale : resolved)
     if (scale->material) return true;
   return static_cast<bool>(material_);

@@ -84,7 +84,7 @@ class Model final : public Described {
   /// The material of a point inside: that of the finest of these scales that has one. May be null
   /// only where has_material() is false. `part`: as in Skin::find().
   const Material* material(Vec3 p, const Scales& resolved, uint32_t& part) const;
-  /// Whether there is one wherever a point is.
+  /// Whether there is one wherever a point is. Of a model without regions.
   bool has_material(const Scales& resolved) const;
   /// All that points may have.
   std::vector<const Material*> materials(const Scales& resolved) const;

@@ -36,7 +36,7 @@ void require_material(const Model& model, const Scales& resolved, const char* pu
   for (size_t r = 0; r < model.regions().size(); ++r)
     if (!model.regions()[r]->has_material(resolved.regions[r]))
       fail(Status::argument, "%s, and no resolved scale of region %zu has a material", purpose, r);
-  if (!model.has_material(resolved))
+  if (model.regions().empty() && !model.has_material(resolved))
     fail(Status::argument, "%s, and no resolved scale has a material", purpose);
 }
 

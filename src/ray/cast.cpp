@@ -99,7 +99,7 @@ class Caster {
     boxes.near = boxes.bounds.grown(boxes.tolerance);
     if (detail == HitDetail::all && shape.is_bounded())
       boxes.beyond = way_past_end(model, resolved);
-    // Without scales, the surface of the box is what is asked.
+    // Without scales, hits are on the surface of the box itself.
     boxes.has_box = shape.is_box() && !resolved.empty();
     boxes.box = shape.bounds();
     return boxes;

@@ -31,7 +31,8 @@ HWY_INLINE M contains(const Box3& box, const Vector& p) {
       hn::And(is_within(p.y, box.min.y, box.max.y), is_within(p.z, box.min.z, box.max.z)));
 }
 
-/// As clip_to_box(), but for its answer, along one axis. Returns whether the ray may meet the box.
+/// Clips [from, to] along one axis, as clip_to_box() does. Returns the lanes whose rays may meet
+/// the box.
 HWY_INLINE M clip_axis(V o, V d, double min, double max, V& from, V& to) {
   const D tag;
   const M is_across = hn::Eq(d, hn::Zero(tag)), may_meet = is_within(o, min, max);
@@ -42,8 +43,8 @@ HWY_INLINE M clip_axis(V o, V d, double min, double max, V& from, V& to) {
   const V less = hn::Set(tag, 1 - 0x1p-50), more = hn::Set(tag, 1 + 0x1p-50);
   const V low = hn::Mul(near, hn::IfThenElse(hn::Gt(near, zero), less, more));
   const V high = hn::Mul(far, hn::IfThenElse(hn::Gt(far, zero), more, less));
-  from = hn::IfThenElse(is_across, from, hn::Max(from, low));
-  to = hn::IfThenElse(is_across, to, hn::Min(to, high));
+  from = hn::IfThenElse(is_across, from, hn::Max(low, from));
+  to = hn::IfThenElse(is_across, to, hn::Min(high, to));
   return hn::Or(hn::Not(is_across), may_meet);
 }
 HWY_INLINE M clip(const Vector& o, const Vector& d, const Box3& box, V& from, V& to) {
@@ -74,7 +75,7 @@ void start(const RaySearch* searches, size_t count, const StartBoxes& boxes, Ray
     starts.miss |= static_cast<uint32_t>(bits_of(d, hn::Not(meets))) << lane;
     starts.begin |= static_cast<uint32_t>(bits_of(d, begins)) << lane;
     if (!boxes.has_box) continue;
-    // As settle_entry(), for entries that it settles by two questions.
+    // As settle_entry(), for entries that it settles by two evaluations of membership.
     V low_in = zero, high_in = end;
     const M crosses = clip(place, u, boxes.box, low_in, high_in);
     const auto is_in = [&](V t) HWY_ATTR { return contains(boxes.box, add_scaled(place, u, t)); };

@@ -14,7 +14,7 @@ namespace msq {
 struct StartBoxes {
   Box3 bounds, near;  ///< of the shape; and with rounding of points of rays
   double beyond;
-  bool has_box;  ///< whether the shape is the box `box`
+  bool has_box;  ///< whether the shape is the box `box`, and crossings of it are wanted
   Box3 box;
   double tolerance;  ///< of entries into it
 };

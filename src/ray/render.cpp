@@ -140,16 +140,15 @@ class Renderer {
     std::array<Place, tile_side> places;
     for (uint32_t i = 0; i < side; ++i) places[i] = {i / n, i % n, (i % n + 0.5) / n};
     const Camera& camera = view_.camera();
-    const auto search_from = [&](double at_x, double at_y, double& size) {
+    const auto set_search = [&](double at_x, double at_y, double& size, RaySearch& search) {
       const Vec3 direction = view_.direction(at_x, at_y);
       size = size_of(direction);
-      RaySearch search;
       search_along(view_.origin(at_x, at_y), direction, size, camera.clip_near, camera.clip_far,
                    search);
-      return search;
     };
     double size;
-    const RaySearch first = search_from(0, 0, size);
+    RaySearch first;  // for orthographic cameras: but for its origin, that of all pixels
+    set_search(0, 0, size, first);
     batch.resize(ray_batch);
     size_t count = 0;
     for (const TilePixel& at : tile_order) {
@@ -164,7 +163,8 @@ class Renderer {
       const double at_x = picture_x + right.middle, at_y = picture_y + down.middle;
       RaySearch& search = batch.searches[count];
       if (camera.is_perspective) {
-        search = search_from(at_x, at_y, size);
+        search = {};
+        set_search(at_x, at_y, size, search);
       } else {
         search = first;
         search.ray.origin = view_.origin(at_x, at_y);

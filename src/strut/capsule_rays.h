@@ -28,8 +28,8 @@ constexpr size_t capsule_padding = 16;
 struct RayPacket {
   static constexpr size_t most = 16;
 
-  /// The points origin + t direction, for t in [from, to]; directions of length 1. Lanes beyond
-  /// `count` have from > to.
+  /// The points origin + t direction, for t in [from, to]; directions of length 1. Lanes
+  /// without a ray have from > to; none is at or beyond `count`.
   size_t count = 0;
   alignas(64) float origin[3][most] = {};
   alignas(64) float direction[3][most] = {};

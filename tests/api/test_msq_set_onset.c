@@ -230,6 +230,23 @@ static void check_limit(msq_structure* structure, double limit) {
   msq_structure_release(structure);
 }
 
+/* The distance to copies, in cells of these sizes, of a strut from a cell's corner to `end`. */
+static double from_copies(const double p[3], const double sizes[3], const double end[3]) {
+  double least = INFINITY, squared = 0;
+  for (int axis = 0; axis < 3; ++axis) squared += end[axis] * end[axis];
+  for (int i = -20; i <= 20; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -1; k <= 1; ++k) {
+        const double v[3] = {p[0] - i * sizes[0], p[1] - j * sizes[1], p[2] - k * sizes[2]};
+        double s = 0, away = 0;
+        for (int axis = 0; axis < 3; ++axis) s += v[axis] * end[axis] / squared;
+        s = fmin(1, fmax(0, s));
+        for (int axis = 0; axis < 3; ++axis) away += pow(v[axis] - s * end[axis], 2);
+        least = fmin(least, sqrt(away));
+      }
+  return least;
+}
+
 /* Of cells that are short along x: points are farther from everything than the limit. */
 static void beyond_the_limit_is_infinite(void** state) {
   static const double nodes[3][3] = {{0, 0, 0}, {0.1, 0.1, 0.1}, {0.1, 0, 0}}, factors[1] = {0.5};
@@ -250,6 +267,12 @@ static void beyond_the_limit_is_infinite(void** state) {
   lattice.strut_count = 1;
   assert_ok(msq_structure_lattice(context, &lattice, &made));
   check_limit(made, 2);
+  for (int i = 0; i < count; ++i) {
+    const double end[3] = {nodes[1][0] * sizes[0], nodes[1][1] * sizes[1], nodes[1][2] * sizes[2]};
+    const double least = from_copies(points[i], sizes, end);
+    if (least < 2 - 1e-9) assert_float_equal(onsets[i], least, 1e-9);
+    if (least > 2 + 1e-9) assert_true(onsets[i] == INFINITY);
+  }
   lattice.strut_factors = factors;
   assert_ok(msq_structure_lattice(context, &lattice, &made));
   check_limit(made, 4);

@@ -65,8 +65,8 @@ void play_with_failing_memory(const Scenario& scenario) {
     play(scenario, stage, true);
     // First with no memory left: what a failure loads once, such as libgcc for exceptions that pass
     // functions of C, is not there yet.
-    for (const uint64_t k : chosen(stage.allocations()))
-      for (const Failing failing : {Failing::from_then_on, Failing::once}) {
+    for (const Failing failing : {Failing::from_then_on, Failing::once})
+      for (const uint64_t k : chosen(stage.allocations())) {
         what = "allocation " + std::to_string(k) + " of " + std::to_string(stage.allocations()) +
                (failing == Failing::once ? " fails: " : " and all after it fail: ");
         stage.set_failing(k, failing);

@@ -118,6 +118,9 @@ static void long_names(void** state) {
     int count;
   } of[] = {{"a", 240}, {"a", 241}, {"a", 255}, {"\xe9\xaa\xa8", 85}, {"\xf0\x9f\x98\x80", 63}};
   for (size_t i = 0; i < sizeof of / sizeof of[0]; ++i) {
+#ifdef _WIN32
+    if (of[i].count > 200) continue; /* a path has at most 260 characters there */
+#endif
     char path[512];
     int length = snprintf(path, sizeof path, "%s/", folder);
     for (int k = 0; k < of[i].count; ++k)

@@ -43,10 +43,12 @@ struct Packet {
     rays.set(frame, searches.data(), searches.size());
   }
   FoamRay ray(size_t n) const { return frame.ray(searches[n]); }
-  uint32_t live() const {
+  /// Some of those that do not end before they begin.
+  uint32_t live(Random& random) const {
+    const uint64_t chosen = random.below(2) ? random.bits() : ~uint64_t{0} << random.below(8);
     uint32_t live = 0;
     for (size_t n = 0; n < searches.size(); ++n) live |= uint32_t{ray(n).from <= ray(n).to} << n;
-    return live;
+    return live & static_cast<uint32_t>(chosen);
   }
 };
 
@@ -106,7 +108,7 @@ void paths_follow_their_rays(void**) {
   size_t refused = 0, taken = 0;
   for_all_instruction_sets(20000, [&](Random& random) {
     const Packet packet(random);
-    const uint32_t live = packet.live();
+    const uint32_t live = packet.live(random);
     if (!live) return;
     const Vec3 scale = random.in_box({{0.5, 0.5, 0.5}, {2, 2, 2}});
     PacketCourse course;
@@ -122,13 +124,20 @@ void paths_follow_their_rays(void**) {
     for (double& corner : base.corner) corner = random.between(-3, 3);
     PacketPath path;
     set_path(packet.rays, course, base, scale, live, path, floats);
-    bool starts = false;
+    bool starts = false, is_parallel = true;
+    const auto first_live = static_cast<size_t>(std::countr_zero(live));
     double begin = course.up ? 1e300 : -1e300, error = 0;
     for (uint32_t rest = live; rest; rest &= rest - 1) {
       const auto n = static_cast<size_t>(std::countr_zero(rest));
       const FoamRay ray = packet.ray(n);
       const double d = ray.direction[k], place = ray.at(ray.from)[k];
       assert_true(course.up ? d > 0 : d < 0);
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto narrow = static_cast<float>(ray.direction[axis]);
+        const auto of_first = static_cast<float>(packet.ray(first_live).direction[axis]);
+        assert_true(floats.direction[axis][n] == narrow && floats.along[axis] == of_first);
+        is_parallel = is_parallel && narrow == of_first;
+      }
       begin = course.up ? std::min(begin, place) : std::max(begin, place);
       error = std::max(error, ray.error);
       // Where it crosses the plane and the next one, to the rounding of single precision.
@@ -151,6 +160,7 @@ void paths_follow_their_rays(void**) {
     for (size_t n = 0; n < most; ++n)
       if (!(live >> n & 1)) assert_true(floats.from[n] > floats.to[n]);
     assert_true(course.begin == begin && course.error == error);
+    assert_int_equal(floats.is_parallel, is_parallel);
     if (starts) assert_true(floats.starts);
 
     PacketHits hits;
@@ -159,8 +169,7 @@ void paths_follow_their_rays(void**) {
       if (random.below(2)) hits.first[n] = static_cast<float>(random.between(0, 3));
     const int slab = static_cast<int>(random.below(4));
     const double seen = random.below(2) ? std::numeric_limits<double>::infinity() : random.unit();
-    double last[most];
-    const uint32_t near = who_may_meet(packet.rays, path, slab, hits, live, seen, last);
+    const uint32_t near = who_may_meet(packet.rays, slab, hits, live, seen, path);
     assert_false(near & ~live);
     for (uint32_t rest = live; rest; rest &= rest - 1) {
       const auto n = static_cast<size_t>(std::countr_zero(rest));
@@ -168,7 +177,7 @@ void paths_follow_their_rays(void**) {
       const double enter = path.enter[n] + slab * path.way[n];
       const double limit = std::min(
           {ray.to, enter + path.way[n] + 0.5 * ray_list_margin, enter + seen * path.way[n]});
-      assert_true(last[n] == limit);
+      assert_true(path.last[n] == limit);
       assert_int_equal(near >> n & 1, path.enter[n] + double(hits.first[n]) <= limit);
     }
   });

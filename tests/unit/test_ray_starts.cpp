@@ -56,8 +56,17 @@ void starts_have_the_bits_of_single_rays(void**) {
       boxes.beyond = random.below(2) ? 1e-3 : 0;
       boxes.has_box = random.below(4) != 0;
       boxes.box = shape.bounds();
+      const bool is_all_space = random.below(8) == 0;  // of which rays have ends
+      if (is_all_space) {
+        boxes.has_box = false;
+        const double far = std::numeric_limits<double>::infinity();
+        boxes.bounds = boxes.near = {{-far, -far, -far}, {far, far, far}};
+      }
       std::vector<RaySearch> searches(1 + random.below(RayStarts::most));
-      for (RaySearch& search : searches) search = any_search(random, shape.bounds());
+      for (RaySearch& search : searches) {
+        search = any_search(random, shape.bounds());
+        if (is_all_space) search.to = std::min(search.to, 100.0);
+      }
       RayStarts starts;
       start_rays(searches.data(), searches.size(), boxes, starts);
       for (size_t i = 0; i < searches.size(); ++i) {

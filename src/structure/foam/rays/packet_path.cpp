@@ -18,7 +18,7 @@ namespace {
 
 using D = hn::CappedTag<float, RayPacket::most>;
 using V = hn::Vec<D>;
-using DD = hn::CappedTag<double, 8>;  // its lanes are at most as many as those of D
+using DD = hn::CappedTag<double, 8>;
 using VD = hn::Vec<DD>;
 using DN = hn::Rebind<float, DD>;
 
@@ -113,8 +113,8 @@ void place(const PacketRays& rays, const PacketCourse& course, const PathBase& b
   }
 }
 
-uint32_t may_meet(const PacketRays& rays, const PacketPath& path, int slab, const PacketHits& hits,
-                  uint32_t active, double seen, double* last) {
+uint32_t may_meet(const PacketRays& rays, int slab, const PacketHits& hits, uint32_t active,
+                  double seen, PacketPath& path) {
   const DD d;
   const VD margin = hn::Set(d, 0.5 * double(ray_list_margin));
   uint32_t found = 0;
@@ -123,7 +123,7 @@ uint32_t may_meet(const PacketRays& rays, const PacketPath& path, int slab, cons
     const VD enter = hn::Add(base, hn::Mul(hn::Set(d, slab), way));
     const VD all = hn::Min(hn::Load(d, rays.to + lane), hn::Add(hn::Add(enter, way), margin));
     const VD limit = hn::Min(all, hn::Add(enter, hn::Mul(hn::Set(d, seen), way)));
-    hn::Store(limit, d, last + lane);
+    hn::Store(limit, d, path.last + lane);
     const VD first = hn::Add(base, hn::PromoteTo(d, hn::Load(DN(), hits.first + lane)));
     found |= static_cast<uint32_t>(bits_of(d, hn::Le(first, limit))) << lane;
   }
@@ -221,10 +221,9 @@ void set_path(const PacketRays& rays, const PacketCourse& course, const PathBase
   HWY_DYNAMIC_DISPATCH(place)(rays, course, base, scale, live, path, packet);
 }
 
-uint32_t who_may_meet(const PacketRays& rays, const PacketPath& path, int slab,
-                      const PacketHits& hits, uint32_t active, double seen,
-                      double (&last)[RayPacket::most]) {
-  return HWY_DYNAMIC_DISPATCH(may_meet)(rays, path, slab, hits, active, seen, last);
+uint32_t who_may_meet(const PacketRays& rays, int slab, const PacketHits& hits, uint32_t active,
+                      double seen, PacketPath& path) {
+  return HWY_DYNAMIC_DISPATCH(may_meet)(rays, slab, hits, active, seen, path);
 }
 
 SlabCrossing cross_slab(const PacketPath& path, const PathSlab& slab, uint32_t live,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The path of a packet of rays through slabs of cells, in single precision, as precise as the sieve
-// of its capsules (strut/capsule_rays.h) requires.
+// The path of a packet of rays through slabs of cells: its course and its ends in double precision,
+// and positions in single precision, as precise as the sieve of its capsules (strut/capsule_rays.h)
+// requires.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +32,7 @@ struct PacketPath {
 
   alignas(64) double enter[most];  ///< t on the plane
   alignas(64) double way[most];    ///< change of t per slab, above 0
+  alignas(64) double last[most];   ///< t up to which the sieve has seen all struts in the way
 
   alignas(64) float place[2][most];  ///< position on the plane
   alignas(64) float slope[2][most];  ///< change of position per slab
@@ -69,11 +71,10 @@ struct SlabCrossing {
 SlabCrossing cross_slab(const PacketPath& path, const PathSlab& slab, uint32_t live,
                         RayPacket& packet);
 
-/// Sets last[n] of the rays `active` in a slab to the t up to which the sieve has seen all struts
-/// in their way, and returns the rays that may meet one up to there. `seen`: the part of their way
-/// through the slab that the sieve has seen, infinite for all of it.
-uint32_t who_may_meet(const PacketRays& rays, const PacketPath& path, int slab,
-                      const PacketHits& hits, uint32_t active, double seen,
-                      double (&last)[RayPacket::most]);
+/// Sets path.last of the rays `active` in a slab, and returns those that may meet a strut up to
+/// there. `seen`: the part of their way through the slab that the sieve has seen, infinite for all
+/// of it.
+uint32_t who_may_meet(const PacketRays& rays, int slab, const PacketHits& hits, uint32_t active,
+                      double seen, PacketPath& path);
 
 }  // namespace msq

@@ -17,7 +17,8 @@ struct PacketRays {
   alignas(64) double origin[3][most] = {}, direction[3][most] = {};
   alignas(64) double from[most] = {}, to[most] = {}, error[most] = {}, tolerance[most] = {};
 
-  /// As FoamFrame::ray(), with its bits, for 1 to `most` rays. Lanes beyond `count` have from > to.
+  /// As FoamFrame::ray(), with its bits, for 1 to `most` rays, whose `from` and `to` are finite.
+  /// Lanes beyond `count` have from > to.
   void set(const FoamFrame& frame, const RaySearch* first, size_t count);
   FoamRay ray(size_t lane) const {
     FoamRay ray;

@@ -235,7 +235,7 @@ class Walker {
       // The other cells contain nothing that the ray may meet before.
       const double seen =
           is_last ? std::numeric_limits<double>::infinity() : double(order_[c + 1].at);
-      const uint32_t near = who_may_meet(rays_, path_, number, hits_, active, seen, last_);
+      const uint32_t near = who_may_meet(rays_, number, hits_, active, seen, path_);
       const uint32_t settled = settle(near);
       active &= ~settled;
       live_ &= ~settled;
@@ -288,8 +288,8 @@ class Walker {
     return slot;
   }
 
-  /// Those of some rays that end in this slab before their `last_`. The current lists contain all
-  /// struts that they may meet up to there.
+  /// Those of some rays that end in this slab before their path_.last. The current lists contain
+  /// all struts that they may meet up to there.
   uint32_t settle(uint32_t rays) {
     uint32_t settled = 0;
     while (rays) {
@@ -315,7 +315,7 @@ class Walker {
         } else if (!(entries_.missed >> n & 1)) {
           found = struts_.entry(rays_.ray(n), id);
         }
-        settled |= uint32_t{settle(n, last_[n], found)} << n;
+        settled |= uint32_t{settle(n, path_.last[n], found)} << n;
       }
     }
     return settled;
@@ -365,7 +365,7 @@ class Walker {
   RayStruts<Struts> struts_;
   SingleRay<Struts> lone_;
 
-  // The rays that packets consist of, and where these begin in the batch.
+  // The rays that packets consist of: where they begin in the batch, and how many they are.
   PacketRays rays_;
   size_t begin_ = 0, window_ = 0;
   // The current packet.
@@ -375,7 +375,6 @@ class Walker {
   bool has_base_ = false;
   int32_t base_slab_ = 0, base_[2];
   PacketPath path_;
-  double last_[most];  // t up to which rays know their struts
   PacketEntries entries_;
   RayPacket packet_;
   // Relative to the base.
