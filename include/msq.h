@@ -2524,7 +2524,8 @@ enum msq_onset_value {
 /** Writes the onset of a structure, without a model, at each point of a set. value: an
  * msq_onset_value. onsets[i]: the onset of point i; infinity where it is not a number or is above a
  * limit. The limit is 4 times the smallest cell size for lattices and plates, over their greatest
- * factor; the smallest cell size for foams; and the smallest limit of the members for unions.
+ * factor; the smallest cell size for walls with holes; and the smallest limit of the members for
+ * unions, where that of foams is the smallest cell size. Alone, foams without holes have no limit.
  * onset_count must be the number of points.
  *
  * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives

@@ -155,8 +155,8 @@ class Materials(unittest.TestCase):
                 (msq.ArgumentError, "colour", lambda: model.material(POINTS, channels=["colour"])),
                 (TypeError, "sequence", lambda: model.material(POINTS, channels="density")),
                 (TypeError, "str", lambda: model.material(POINTS, channels=[1])),
-                (msq.ArgumentError, "no scale", lambda: bare.material(POINTS)),
-                (msq.ArgumentError, "no scale", lambda: bare.material(POINTS[0])),
+                (msq.ArgumentError, "no resolved scale", lambda: bare.material(POINTS)),
+                (msq.ArgumentError, "no resolved scale", lambda: bare.material(POINTS[0])),
                 (msq.ArgumentError, "point 1",
                  lambda: model.material([(0, 0, 0), (0, 0, math.inf)])),
                 (msq.ArgumentError, "finite", lambda: model.material((0, 0, math.inf)))):

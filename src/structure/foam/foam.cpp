@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "structure/common/group_by_cell.h"
-#include "structure/common/known_onset.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/foam/joints/foam_struts.h"
 #include "structure/foam/paper/method_1.h"
@@ -40,17 +39,9 @@ bool Foam::inside(Vec3 p) const {
   return inside(neighbourhood().locate(p), p);
 }
 
-namespace {
-
-double axis_distance(const Foam& foam, Vec3 p) {
-  const Neighbourhood::Located located = foam.neighbourhood().locate(p);
-  return foam.unit() * foam.graph().onset(located.cell, located.fraction * foam.seeds().scale());
-}
-
-}  // namespace
-
 double Foam::onset(Vec3 p) const {
-  return known_onset(*this, axis_distance(*this, p));
+  const Neighbourhood::Located located = neighbourhood().locate(p);
+  return unit() * graph().onset(located.cell, located.fraction * seeds().scale());
 }
 
 double Foam::onset_error() const {
@@ -58,7 +49,7 @@ double Foam::onset_error() const {
 }
 
 double Foam::distance_bound(Vec3 p) const {
-  const double axis = axis_distance(*this, p);
+  const double axis = onset(p);
   const double slack = onset_error() * unit() + locating_slack(p - neighbourhood().origin, axis);
   return strut_distance_bound(axis, slack, radius(), p);
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "structure/common/group_by_cell.h"
-#include "structure/common/known_onset.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/foam/section/section_lines.h"
 #include "structure/foam/walls/vent_distance.h"
@@ -77,7 +76,7 @@ NearFace FoamWalls::face_near(Vec3 p) const {
 }
 
 double FoamWalls::onset(Vec3 p) const {
-  return known_onset(*this, unit_ * face_near(p).onset);
+  return unit_ * face_near(p).onset;
 }
 
 double FoamWalls::slack(Vec3 p, double distance) const {
@@ -105,7 +104,7 @@ double FoamWalls::distance_bound(Vec3 p) const {
                                                  {t.low / unit_, t.high / unit_});
     return std::max(0.0, steady_distance(bound - slack(p, bound), 1, 0.5, thickness_, p));
   }
-  const double distance = 0.5 * unit_ * face_near(p).onset;
+  const double distance = 0.5 * onset(p);
   const double gap = std::max(distance - 0.5 * t.high, 0.5 * t.low - distance) - slack(p, distance);
   return std::max(0.0, steady_distance(gap, 1, 0.5, thickness_, p));
 }
@@ -133,7 +132,7 @@ BoxClass FoamWalls::classify(const Box3& box) const {
     if (!(distance_bound(centre) > around)) return BoxClass::mixed;
     return inside(centre) ? BoxClass::inside : BoxClass::outside;
   }
-  const double distance = 0.5 * unit_ * face_near(centre).onset;
+  const double distance = 0.5 * onset(centre);
   const double half = 0.5 * length(box.extent());
   const double around = half * (1 + 1e-9) + 2 * slack(centre, distance + half) +
                         0x1p-50 * (max_magnitude(box.min) + max_magnitude(box.max));
