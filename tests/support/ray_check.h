@@ -29,6 +29,13 @@ int check_ray(const char* name, const Ray& ray, double from, double to, const Ra
     return inside(ray.at(t)) == wanted && inside(ray.at(t - tolerance)) == wanted &&
            inside(ray.at(t + tolerance)) == wanted;
   };
+  // Along the surface rounding decides, as where the winding number is 1/2 all along the ray.
+  const auto is_noise = [&](double t) {
+    int changes = 0;
+    for (int n = -64; n < 64; ++n)
+      changes += inside(ray.at(t + n * tolerance)) != inside(ray.at(t + (n + 1) * tolerance));
+    return changes >= 4;
+  };
   int entries = 0;
   double at = from;
   PartSteps steps;
@@ -43,7 +50,7 @@ int check_ray(const char* name, const Ray& ray, double from, double to, const Ra
     if (!inside(ray.at(t)) && !inside(ray.at(t + tolerance))) fail_at("the entry is outside", t);
     if (t > at + 2 * tolerance) {
       ++entries;
-      if (inside(ray.at(t - 2 * tolerance)) && inside(ray.at(t - tolerance)))
+      if (inside(ray.at(t - 2 * tolerance)) && inside(ray.at(t - tolerance)) && !is_noise(t))
         fail_at("before the entry it is inside", t);
     }
     const double out = leave(ray, t, to);
