@@ -58,8 +58,7 @@ class Walker {
   void run(size_t count) {
     for (size_t i = 0; i < count;) {
       // Lanes left over from a packet that ended early are enough for another one, or set up again.
-      if (i == begin_ + window_ || (i + min_packet > begin_ + window_ && begin_ + window_ < count))
-        set_up(i, std::min(most, count - i));
+      if (begin_ + window_ < std::min(count, i + min_packet)) set_up(i, std::min(most, count - i));
       i = start(i);
     }
   }
