@@ -82,6 +82,7 @@ void PlaneStruts::add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius) {
     held_ = std::move(more);
     room_ = room;
   }
+  widest_ = std::max(widest_, radius);
   const double squared = dot(d, d);
   const int u = plane.u_axis(), v = plane.v_axis();
   struts.push_back({a[u], a[v], w, d[u], d[v], d_w, radius, squared > 0 ? 1 / squared : 0});

@@ -98,6 +98,7 @@ class PlaneStruts {
   };
   Squares u_, v_;
   double margin_;
+  double widest_ = 0;  // the largest radius
   double holds_node_;  // the squared radius of discs that hold a node
 };
 

@@ -29,7 +29,7 @@ struct SquareLists {
   const PlaneStrut* struts;
   const uint32_t *starts, *lists;  // by square
   SquareAxis u, v;
-  double margin;
+  double doubt;  // of squared distances
 };
 
 }  // namespace
@@ -81,47 +81,48 @@ void find_in_squares(const Vec2* points, size_t count, const SquareLists& of,
     hn::StoreU(hn::IfThenElse(hn::And(are_in(x, of.u), are_in(y, of.v)), square, set(no_square)), d,
                squares + i);
   }
-  // Most of the time would go by waiting for struts, one after the other.
-  for (size_t n = 0; n < count; n += 4) {
-    const size_t square =
-        static_cast<size_t>(std::max(int64_t{0}, static_cast<int64_t>(squares[n])));
-    const uint32_t first = of.starts[square], count_of = of.starts[square + 1] - first;
-    for (uint32_t i = 0; i < std::min(count_of, uint32_t{4}); ++i)
-      hwy::Prefetch(of.struts + of.lists[first + i]);
+  // Branches on each point and each strut would be predicted wrongly too often, so where groups end
+  // is counted, and struts are taken by twos: of an odd number, the first one twice.
+  size_t ends[points_at_once], groups = 0;
+  for (size_t n = 0; n < count; ++n) {
+    ends[groups] = n + 1;
+    groups += n + 1 == count || squares[n + 1] != squares[n];
   }
-  for (size_t n = 0; n < count;) {
-    if (squares[n] == no_square) {
-      found[n++] = Found::doubtful;
+  uint64_t are_inside = 0, are_near = 0;
+  for (size_t group = 0, first = 0; group < groups; first = ends[group++]) {
+    if (squares[first] == no_square) {
+      are_near |= ~uint64_t{0} >> (64 - (ends[group] - first)) << first;
       continue;
     }
-    size_t end = n + 1;
-    const size_t most = std::min(count, n + lanes);
-    while (end < most && squares[end] == squares[n]) ++end;
-    const size_t square = static_cast<size_t>(static_cast<int64_t>(squares[n]));
-    const V p_x = hn::LoadU(d, at_x + n), p_y = hn::LoadU(d, at_y + n);
-    // The least distance from the surfaces of what is inside, and of what is near; squared.
-    V inside = set(std::numeric_limits<double>::infinity()), near = inside;
-    const uint32_t* const list_end = of.lists + of.starts[square + 1];
-    for (const uint32_t* i = of.lists + of.starts[square]; i < list_end; ++i) {
-      const PlaneStrut& s = of.struts[*i];
-      const double less = s.radius - of.margin, high = s.radius + of.margin;
-      const double low = less > 0 ? less : 0;
-      const V d_u = set(s.d_u), d_v = set(s.d_v), d_w = set(s.d_w), w = set(s.w);
-      const V x = hn::Sub(p_x, set(s.a_u)), y = hn::Sub(p_y, set(s.a_v));
-      const V along = hn::MulAdd(x, d_u, hn::MulAdd(y, d_v, hn::Mul(w, d_w)));
-      const V part = hn::Mul(along, set(s.inverse_length_squared));
-      const V t = hn::Min(hn::Max(part, zero), one);
-      const V dx = hn::NegMulAdd(t, d_u, x), dy = hn::NegMulAdd(t, d_v, y);
-      const V dw = hn::NegMulAdd(t, d_w, w);
-      const V squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dw, dw)));
-      near = hn::Min(near, hn::Sub(squared, set(high * high)));
-      inside = hn::Min(inside, hn::Sub(squared, set(low * low)));
+    const uint32_t* const starts = of.starts + static_cast<int64_t>(squares[first]);
+    const uint32_t *const list = of.lists + starts[0], *const list_end = of.lists + starts[1];
+    for (size_t n = first; n < ends[group]; n += lanes) {
+      const V p_x = hn::LoadU(d, at_x + n), p_y = hn::LoadU(d, at_y + n);
+      // The least squared distance from an axis, less the squared radius.
+      V least = set(std::numeric_limits<double>::infinity());
+      const auto add = [&](const PlaneStrut& s) HWY_ATTR {
+        const V d_u = set(s.d_u), d_v = set(s.d_v), d_w = set(s.d_w), w = set(s.w);
+        const V x = hn::Sub(p_x, set(s.a_u)), y = hn::Sub(p_y, set(s.a_v));
+        const V along = hn::MulAdd(x, d_u, hn::MulAdd(y, d_v, hn::Mul(w, d_w)));
+        const V part = hn::Mul(along, set(s.inverse_length_squared));
+        const V t = hn::Min(hn::Max(part, zero), one);
+        const V dx = hn::NegMulAdd(t, d_u, x), dy = hn::NegMulAdd(t, d_v, y);
+        const V dw = hn::NegMulAdd(t, d_w, w);
+        const V squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dw, dw)));
+        least = hn::Min(least, hn::Sub(squared, set(s.radius * s.radius)));
+      };
+      for (const uint32_t* i = list; i < list_end; i += 2) {
+        add(of.struts[i[0]]);
+        add(of.struts[i[i + 1 < list_end]]);
+      }
+      // Points behind the group get bits, too: a strut that holds a point does so from any list.
+      are_inside |= bits_of(d, hn::Lt(least, set(-of.doubt))) << n;
+      are_near |= bits_of(d, hn::Le(least, set(of.doubt))) << n;
     }
-    const uint64_t are_inside = bits_of(d, hn::Lt(inside, zero));
-    const uint64_t are_doubtful = bits_of(d, hn::Le(near, zero)) & ~are_inside;
-    for (size_t i = 0; n < end; ++n, ++i)
-      found[n] = static_cast<Found>((are_inside >> i & 1) | (are_doubtful >> i & 1) << 1);
   }
+  const uint64_t are_doubtful = are_near & ~are_inside;
+  for (size_t n = 0; n < count; ++n)
+    found[n] = static_cast<Found>((are_inside >> n & 1) | (are_doubtful >> n & 1) << 1);
 }
 
 }  // namespace
@@ -153,7 +154,7 @@ void PlaneStruts::find(const Vec2* points, size_t count, Found* found) const {
                           memory_->lists.data(),
                           axis(u_),
                           axis(v_),
-                          margin_};
+                          (2 * widest_ + margin_) * margin_};
   for (size_t done = 0; done < count; done += points_at_once) HWY_DYNAMIC_DISPATCH(find_in_squares)
   (points + done, std::min(count - done, points_at_once), lists, found + done);
 }
