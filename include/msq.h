@@ -1594,7 +1594,7 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign
  * before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is
  * not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are
- * evaluated as products, or 1 over one; a^0 is 1 for every a. Other powers are exp(b log(a)), so
+ * evaluated as products, or 1 over one; a^0 is the constant 1. Other powers are exp(b log(a)), so
  * they need a > 0.
  * - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0.
  * - select(c, a, b) is a where c is above 0.5, otherwise b.

@@ -53,6 +53,12 @@ class ReferenceExpression::Reader {
     auto node = std::make_unique<Node>();
     node->what = std::move(what);
     node->is_constant = a->is_constant && (!b || b->is_constant) && (!c || c->is_constant);
+    // A product of no factors is a constant, whatever the base is.
+    constexpr double any_point[3] = {};
+    if (node->what == "^" && b->is_constant && !node->is_constant) {
+      const Known exponent = evaluate(*b, any_point);
+      node->is_constant = exponent.is_known && exponent.value == 0 && exponent.error == 0;
+    }
     node->operands.push_back(std::move(a));
     if (b) node->operands.push_back(std::move(b));
     if (c) node->operands.push_back(std::move(c));
