@@ -12,16 +12,14 @@
 
 namespace msq {
 
-/// Whether any of the bits first..last, inclusive, is set.
-inline bool any_bit(const uint64_t* row, uint64_t first, uint64_t last) {
+/// Sets those of the bits first..last, inclusive, that another row has.
+inline void add_bits(uint64_t* row, const uint64_t* other, uint64_t first, uint64_t last) {
   const uint64_t a = first / bits_per_word, b = last / bits_per_word;
-  const uint64_t head = ~uint64_t{0} << (first % bits_per_word);
-  const uint64_t tail = ~uint64_t{0} >> (bits_per_word - 1 - last % bits_per_word);
-  if (a == b) return (row[a] & head & tail) != 0;
-  if (row[a] & head) return true;
-  for (uint64_t w = a + 1; w < b; ++w)
-    if (row[w]) return true;
-  return (row[b] & tail) != 0;
+  for (uint64_t w = a; w <= b; ++w) {
+    const uint64_t from = w == a ? first % bits_per_word : 0;
+    const uint64_t to = w == b ? last % bits_per_word : bits_per_word - 1;
+    row[w] |= other[w] & ~uint64_t{0} << from & ~uint64_t{0} >> (bits_per_word - 1 - to);
+  }
 }
 
 /// The runs of a word above its seeds, which are a subset of its bits: a sum carries from each seed

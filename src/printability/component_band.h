@@ -43,15 +43,21 @@ struct ComponentTotals {
   void merge(const ComponentTotals& other);
 };
 
-/// Runs of samples that are not known, by rows: those of row j are [begin[j], begin[j + 1]). Run r
-/// has samples edges[2 r] to edges[2 r + 1] - 1. The arrays may be longer than the runs.
+/// Rows are labelled by twos. Samples of such a strip that have the same x are joined, so a run of
+/// a strip is a range of x in which each sample is joined to the next. Of a strip at the end, the
+/// second row may be missing.
+constexpr uint64_t rows_of_strip = 2;
+
+/// Runs of samples that are not known, by strips: those of strip n are [begin[n], begin[n + 1]).
+/// Run r has samples between edges[2 r] and edges[2 r + 1] - 1. The arrays may be longer than the
+/// runs.
 struct ComponentRuns {
   std::vector<uint32_t> edges;
   std::vector<uint32_t> node;     ///< by run: the node of the band that it was given
   std::vector<uint32_t> numbers;  ///< by node: its component, from 1, of the band; 0: the known one
   std::vector<uint32_t> begin;
 
-  size_t size() const { return begin.back(); }
+  size_t strips() const { return begin.size() - 1; }
   uint32_t component(size_t run) const { return numbers[node[run]]; }
   uint32_t first(size_t run) const { return edges[2 * run]; }
   uint32_t end(size_t run) const { return edges[2 * run + 1]; }
@@ -63,17 +69,17 @@ struct ComponentPart {
   /// known. A run changes them by one operation of four numbers.
   uint32_t maxima[4] = {};
   uint64_t samples = 0;
-  uint32_t first = 0, row = 0;  ///< x and y of its first sample: lowest y, then x
+  uint64_t place = 0;  ///< x + 2^32 y of its first sample: lowest y, then x
 
   uint32_t low_x() const { return ~maxima[0]; }
   uint32_t high_x() const { return maxima[1] - 1; }
   uint32_t high_y() const { return maxima[2]; }
   bool has_below() const { return maxima[3] != 0; }
   void set_has_below() { maxima[3] = 1; }
-  /// The other begins later.
   void merge(const ComponentPart& other) {
     for (int i = 0; i < 4; ++i) maxima[i] = std::max(maxima[i], other.maxima[i]);
     samples += other.samples;
+    place = std::min(place, other.place);
   }
 };
 
@@ -93,24 +99,27 @@ struct ComponentMask {
 struct ComponentMasks {
   bool has_known = false;  ///< otherwise `known` is not used, and the rest is all samples
   ComponentMask known, known_below;
-  ComponentMask rest, rest_below;  ///< the other samples, in rows that have some
+  ComponentMask rest, rest_below;  ///< the other samples
+  std::vector<uint64_t> no_row;    ///< a row without samples
 };
 
 struct ComponentBand {
   static constexpr uint32_t none = UINT32_MAX;
 
-  uint64_t begin = 0, end = 0;    ///< rows
-  ComponentRuns runs, below;      ///< of this layer and of the one before; rows count from `begin`
+  uint64_t begin = 0, end = 0;    ///< rows; strips begin there
+  ComponentRuns runs, below;      ///< of this layer and of the one before
   std::vector<uint8_t> has_rest;  ///< by row: whether it has samples that are not known
-  /// Node 0: the known component. The others are of runs that touch none in the row before, in the
-  /// order of the runs. The smallest node of a component is its root.
+  /// Node 0: the known component. The others are of runs that touch none in the strip before, in
+  /// the order of the runs. The smallest node of a component is its root.
   std::vector<uint32_t> parents;
   /// By number below: a node of this layer above the component, or none.
   std::vector<uint32_t> node_below;
   std::vector<ComponentPart> parts;  ///< by node; of a root: of its component
   std::vector<uint32_t> roots;       ///< by number - 1: the band's components in this layer
   uint32_t nodes = 1, count = 0;     ///< how many nodes, and components without the known one
-  /// Of a row, while it is labelled.
+  /// Of a strip, while it is labelled. `counts`: by run, how many samples the strip has before the
+  /// run's end, and how many of them are in its second row.
+  std::vector<uint32_t> counts;
   std::vector<RunPair> pairs;
   std::vector<uint32_t> fresh;
   std::vector<uint64_t> overlaps;
@@ -143,19 +152,12 @@ void scan_band(ComponentBand& band, ComponentMasks& masks, const ComponentRules&
 /// Sets known_here.
 void measure_known(ComponentBand& band, const ComponentMask& known);
 
-/// Calls join(a, b) for the pairs of runs of two rows, in [a, a_end) and [b, b_end), that overlap
-/// or, with a reach of 1, are next to each other.
-template <class Join>
-void for_each_overlap(const ComponentRuns& of_a, uint32_t a, uint32_t a_end,
-                      const ComponentRuns& of_b, uint32_t b, uint32_t b_end, uint32_t reach,
-                      Join&& join) {
-  while (a < a_end && b < b_end) {
-    if (of_a.first(a) < of_b.end(b) + reach && of_b.first(b) < of_a.end(a) + reach) join(a, b);
-    if (of_a.end(a) < of_b.end(b))
-      ++a;
-    else
-      ++b;
-  }
-}
+/// Runs of two bands that touch, one above the other.
+struct ComponentSeam {
+  std::vector<RunPair> pairs;
+  std::vector<uint32_t> low_known, high_known;  ///< that touch known samples of the other band
+};
+void find_seam(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,
+               bool joins_corners, ComponentSeam& seam);
 
 }  // namespace msq

@@ -11,49 +11,13 @@
 #include "base/simd.h"
 #include "printability/bit_row.h"
 #include "printability/component_band.h"
+#include "printability/component_strips-inl.h"
 #include "printability/known_rows-inl.h"
 
-// Compiled for each instruction set: counting the bits of a word is one instruction in most.
 HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace {
-
-inline uint32_t count_ones(uint64_t word) {
-  return static_cast<uint32_t>(std::popcount(word));
-}
-
-/// Calls take(bit) for each bit of a word that is set.
-template <class Take>
-inline void for_each_bit(uint64_t word, Take&& take) {
-  for (; word; word &= word - 1) take(static_cast<unsigned>(std::countr_zero(word)));
-}
-
-/// The bits up to and with one.
-inline uint64_t bits_to(unsigned bit) {
-  return ~uint64_t{0} >> (bits_per_word - 1 - bit);
-}
-
-/// A row of runs, read word by word. Which run a sample belongs to is the number of runs that start
-/// up to it.
-struct RowReader {
-  const uint64_t* row = nullptr;            // null: no samples
-  uint32_t before = 0;                      // number of the run that starts first from this word on
-  uint64_t word = 0, starts = 0, last = 0;  // last: bit 63 of the word before, as bit 0
-
-  void read(size_t w) {
-    last = word >> (bits_per_word - 1);
-    before += count_ones(starts);
-    word = row ? row[w] : 0;
-    starts = word & ~(word << 1 | last);
-  }
-  /// The run that holds a bit of this word.
-  uint32_t run_at(unsigned bit) const { return before + count_ones(starts & bits_to(bit)) - 1; }
-};
-
-/// Bits of a word that are looked at together, even if fewer are set: the processor foresees loops
-/// of so many better.
-constexpr uint32_t at_once = 4;
 
 /// Gives the runs that have none the next nodes. Returns how many, and lists these runs. All is
 /// written in any case: the processor does not foresee which runs have none.
@@ -69,32 +33,37 @@ HWY_NOINLINE uint32_t take_nodes(uint32_t* HWY_RESTRICT nodes, size_t count, uin
   return made;
 }
 
-/// Adds runs of a row to the parts of components. `edges` has one run more.
+/// Adds runs of a strip, whose first row is `row`, to the parts of components. `counts`: see
+/// ComponentBand. `edges` has one run more.
 HWY_NOINLINE void add_runs(const uint32_t* HWY_RESTRICT edges, const uint32_t* HWY_RESTRICT nodes,
-                           size_t count, uint32_t row, ComponentPart* HWY_RESTRICT parts) {
-#if HWY_TARGET == HWY_SCALAR
-  for (size_t r = 0; r < count; ++r) {
-    const uint32_t first = edges[2 * r], end = edges[2 * r + 1];
-    ComponentPart& part = parts[nodes[r]];
-    part.maxima[0] = std::max(part.maxima[0], ~first);
-    part.maxima[1] = std::max(part.maxima[1], end);
-    part.maxima[2] = std::max(part.maxima[2], row);
-    part.samples += end - first;
-  }
-#else
+                           const uint32_t* HWY_RESTRICT counts, size_t count, uint32_t row,
+                           ComponentPart* HWY_RESTRICT parts) {
+  uint32_t all = 0, of_high = 0;
+#if HWY_TARGET != HWY_SCALAR
   const hn::FixedTag<uint32_t, 4> d;
   alignas(16) const uint32_t of_run[4] = {~0u, ~0u, 0, 0}, of_first[4] = {~0u, 0, 0, 0},
-                             of_row[4] = {0, 0, row, 0};
-  const auto run_mask = hn::Load(d, of_run), flip = hn::Load(d, of_first), y = hn::Load(d, of_row);
+                             of_row[2][4] = {{0, 0, row, 0}, {0, 0, row + 1, 0}};
+  const auto run_mask = hn::Load(d, of_run), flip = hn::Load(d, of_first);
+#endif
   for (size_t r = 0; r < count; ++r) {
     ComponentPart& part = parts[nodes[r]];
+    part.samples += counts[2 * r] - all;
+    all = counts[2 * r];
+    const bool reaches_high = counts[2 * r + 1] != of_high;
+    of_high = counts[2 * r + 1];
+#if HWY_TARGET == HWY_SCALAR
+    part.maxima[0] = std::max(part.maxima[0], ~edges[2 * r]);
+    part.maxima[1] = std::max(part.maxima[1], edges[2 * r + 1]);
+    part.maxima[2] = std::max(part.maxima[2], row + reaches_high);
+#else
     const auto run = hn::Xor(hn::And(hn::LoadU(d, edges + 2 * r), run_mask), flip);
+    const auto y = hn::Load(d, of_row[reaches_high]);
     hn::StoreU(hn::Max(hn::LoadU(d, part.maxima), hn::Or(run, y)), d, part.maxima);
-    part.samples += edges[2 * r + 1] - edges[2 * r];
-  }
 #endif
+  }
 }
 
+template <bool corners>
 class Scan {
  public:
   Scan(ComponentBand& band, ComponentMasks& masks, const ComponentRules& rules,
@@ -111,6 +80,9 @@ class Scan {
         fresh_(band.fresh),
         overlaps_(band.overlaps) {
     overlaps_.resize(words_);
+    const size_t most = words_ * bits_per_word + at_once;
+    pairs_.resize(most);
+    band_.counts.resize(2 * most);
   }
 
   void run() {
@@ -124,14 +96,14 @@ class Scan {
   void flood_row(const uint64_t* row, uint64_t j, const uint64_t* beside) {
     uint64_t *known = masks_.known.row(j), *rest = masks_.rest.row(j);
     uint8_t& has_rest = band_.has_rest[j - band_.begin];
-    has_rest = fill_words(row, masks_.known_below.row(j), known, rest, words_);
+    has_rest = fill_words<corners>(row, masks_.known_below.row(j), beside, known, rest, words_);
     if (!has_rest) return;
     if (rules_.anchors_sides) {
       extend_word(row, known, rest, 0, 1);
       extend_word(row, known, rest, (nx_ - 1) / bits_per_word,
                   uint64_t{1} << (nx_ - 1) % bits_per_word);
     }
-    has_rest = extend(row, beside, known, rest);
+    has_rest = extend(row, nullptr, known, rest);
   }
 
   static void extend_word(const uint64_t* row, uint64_t* known, uint64_t* rest, size_t w,
@@ -142,13 +114,7 @@ class Scan {
   }
 
   bool extend(const uint64_t* row, const uint64_t* beside, uint64_t* known, uint64_t* rest) const {
-    return rules_.joins_corners ? extend_row<true>(row, beside, known, rest, words_)
-                                : extend_row<false>(row, beside, known, rest, words_);
-  }
-
-  /// Samples that are next to those of a row beside them, in word w.
-  uint64_t touching(const uint64_t* beside, size_t w) const {
-    return rules_.joins_corners ? spread_word(beside, words_, w) : beside[w];
+    return extend_row<corners>(row, beside, known, rest, words_);
   }
 
   /// Finds most of what the known component has in this layer: row by row upwards and downwards.
@@ -170,7 +136,7 @@ class Scan {
         band_.has_rest[j - begin] = 0;
         continue;
       }
-      flood_row(row, j, j > begin ? known.row(j - 1) : nullptr);
+      flood_row(row, j, j > begin ? known.row(j - 1) : masks_.no_row.data());
     }
     for (uint64_t j = end - 1; j-- > begin;) {
       if (!band_.has_rest[j - begin]) continue;
@@ -179,8 +145,9 @@ class Scan {
     }
   }
 
-  /// Lists the runs of the rest, row by row, and gives each a node: that of a run which it touches
-  /// in the row before, or a new one. Runs that touch join their nodes, and so do components below.
+  /// Lists the runs of the rest, strip by strip, and gives each a node: that of a run which it
+  /// touches in the strip before, or a new one. Runs that touch join their nodes, and so do
+  /// components below.
   void label() {
     ComponentRuns& runs = band_.runs;
     const ComponentRuns& below = band_.below;
@@ -191,22 +158,33 @@ class Scan {
     band_.parts[0] = {};
     CancelPoll poll(current_job());
     uint32_t count = 0;
-    for (uint64_t j = band_.begin; j < band_.end; ++j) {
+    for (uint64_t n = 0; n < runs.strips(); ++n) {
       poll();
-      const uint64_t n = j - band_.begin;
       runs.begin[n] = count;
+      const uint64_t first = band_.begin + rows_of_strip * n;
+      const uint64_t end = std::min(first + rows_of_strip, band_.end);
       const bool has_below = below.begin[n] < below.begin[n + 1];
-      if (masks_.has_known && has_below) join_known_above(j, n);
-      if (masks_.has_known && !band_.has_rest[n]) continue;
-      if (!masks_.has_known) std::copy_n(rows_ + j * words_, words_, masks_.rest.row(j));
-      count = list(masks_.rest.row(j), count);
+      bool has_rest = !masks_.has_known;
+      for (uint64_t j = first; j < end; ++j) {
+        if (!masks_.has_known) {
+          std::copy_n(rows_ + j * words_, words_, masks_.rest.row(j));
+          continue;
+        }
+        if (has_below) join_known_above(j, n);
+        has_rest = has_rest || band_.has_rest[j - band_.begin];
+      }
+      if (!has_rest) continue;
+      const Strip strip = strip_of(band_, masks_, masks_.rest, n);
+      count = list(strip, count);
       if (runs.begin[n] == count) continue;
-      label_row(n, count, static_cast<uint32_t>(j));
+      label_strip(strip, n, count, static_cast<uint32_t>(first));
       if (!masks_.has_known) continue;
-      if (n > 0) join_known_beside(j, n, j - 1);
-      if (j + 1 < band_.end) join_known_beside(j, n, j + 1);
+      for (uint64_t j = first; j < end; ++j) {
+        if (j > band_.begin) join_known_beside(strip, n, j, j - 1);
+        if (j + 1 < band_.end) join_known_beside(strip, n, j, j + 1);
+      }
     }
-    runs.begin[band_.end - band_.begin] = count;
+    runs.begin.back() = count;
   }
 
   /// Room for as many nodes more.
@@ -218,100 +196,91 @@ class Scan {
     band_.parts.resize(size);
   }
 
-  /// Adds the runs of a row to the first `before` runs. Returns how many there are then.
-  uint32_t list(const uint64_t* row, uint32_t before) {
+  /// Adds the runs of a strip to the first `before` runs. Returns how many there are then.
+  uint32_t list(const Strip& strip, uint32_t before) {
     ComponentRuns& runs = band_.runs;
-    size_t at = 2 * size_t{before};
-    uint64_t carry = 0;
+    uint32_t* const counts = band_.counts.data();
+    // No sample is in two runs.
+    const size_t wanted = 2 * (before + words_ * bits_per_word + at_once);
+    if (runs.edges.size() < wanted) runs.edges.resize(std::max(wanted, runs.edges.size() * 3 / 2));
+    StripReader<corners> of{strip, before};
+    size_t started = before, ended = before;
+    uint32_t all = 0, of_high = 0;  // samples before the word
     for (size_t w = 0; w < words_; ++w) {
-      // A run begins and ends where a sample is unlike the one before it.
-      uint64_t edges = row[w] ^ (row[w] << 1 | carry);
-      carry = row[w] >> (bits_per_word - 1);
-      if (!edges) continue;
-      if (runs.edges.size() < at + 2 * bits_per_word)
-        runs.edges.resize(std::max(at + 2 * bits_per_word, runs.edges.size() * 3 / 2));
-      uint32_t* to = runs.edges.data() + at;
+      of.read(w);
+      uint64_t starts = of.starts, ends = of.ends();
       const auto first = static_cast<uint32_t>(w * bits_per_word);
-      const uint32_t found = count_ones(edges);
-      for (uint32_t i = 0; i < found; i += 2 * at_once)
-        for (uint32_t k = i; k < i + 2 * at_once; ++k) {
-          to[k] = first + static_cast<uint32_t>(std::countr_zero(edges));
-          edges &= edges - 1;
+      uint32_t* to = runs.edges.data() + 2 * started;
+      const uint32_t more = count_ones(starts), done = count_ones(ends);
+      for (uint32_t i = 0; i < more; i += at_once)
+        for (uint32_t k = i; k < i + at_once; ++k) {
+          to[2 * k] = first + static_cast<uint32_t>(std::countr_zero(starts));
+          starts &= starts - 1;
         }
-      at += found;
+      started += more;
+      to = runs.edges.data() + 2 * ended;
+      uint32_t* const to_counts = counts + 2 * (ended - before);
+      for (uint32_t i = 0; i < done; i += at_once)
+        for (uint32_t k = i; k < i + at_once; ++k) {
+          const uint64_t up_to = ends ^ (ends - 1), inside = up_to >> 1;
+          to[2 * k + 1] = first + count_ones(inside);
+          const uint32_t high = count_ones(of.high & inside);
+          to_counts[2 * k] = all + high + count_ones(of.low & inside);
+          to_counts[2 * k + 1] = of_high + high;
+          ends &= ends - 1;
+        }
+      ended += done;
+      const uint32_t high = count_ones(of.high);
+      all += high + count_ones(of.low);
+      of_high += high;
     }
-    if (carry) runs.edges[at++] = static_cast<uint32_t>(words_ * bits_per_word);
-    const size_t all = at / 2;
-    if (all >= UINT32_MAX)
+    if (ended < started) {
+      runs.edges[2 * ended + 1] = static_cast<uint32_t>(words_ * bits_per_word);
+      counts[2 * (ended - before)] = all;
+      counts[2 * (ended - before) + 1] = of_high;
+    }
+    if (started >= UINT32_MAX)
       fail(Status::limit, "layer %llu has %zu runs of samples to label; the limit is 2^32 - 1",
-           static_cast<unsigned long long>(layer_), all);
-    if (runs.node.size() < all) runs.node.resize(std::max(all, runs.node.size() * 3 / 2));
-    reserve_nodes(all - before);
-    return static_cast<uint32_t>(all);
+           static_cast<unsigned long long>(layer_), started);
+    if (runs.node.size() < started) runs.node.resize(std::max(started, runs.node.size() * 3 / 2));
+    reserve_nodes(started - before);
+    return static_cast<uint32_t>(started);
   }
 
-  /// Lists the pairs of runs of two rows that overlap or, with corners, meet at one.
-  template <bool corners>
-  size_t list_pairs(const uint64_t* a, uint32_t a_begin, uint32_t a_end, const uint64_t* b,
-                    uint32_t b_begin, uint32_t b_end) {
-    // Each pair is the first for one of its runs.
-    const size_t most = size_t{a_end - a_begin} + (b_end - b_begin) + at_once;
-    if (pairs_.size() < most) pairs_.resize(most);
+  /// Lists pairs of runs of a strip and of the strip below it that overlap. Those are left out that
+  /// share samples with such a pair of the strip before: its runs belong to the same components.
+  size_t list_new_pairs(const Strip& a, uint32_t a_begin, const Strip& b, uint32_t b_begin,
+                        uint64_t n) {
+    if (overlaps_strip_ + 1 != n) std::fill_n(overlaps_.begin(), words_, uint64_t{0});
+    overlaps_strip_ = n;
     RunPair* to = pairs_.data();
-    RowReader of_a{a, a_begin}, of_b{b, b_begin};
+    StripReader<corners> of_a{a, a_begin}, of_b{b, b_begin};
+    of_a.read(0);
+    of_b.read(0);
     uint64_t carry = 0;
     for (size_t w = 0; w < words_; ++w) {
-      of_a.read(w);
-      of_b.read(w);
-      const uint64_t both = of_a.word & of_b.word;
-      // Samples where a run of `a` and one of `b` are met first.
-      uint64_t meet = both & ~(both << 1 | carry);
-      carry = both >> (bits_per_word - 1);
-      if constexpr (corners)
-        meet |= (of_a.starts & (of_b.word << 1 | of_b.last) & ~of_b.word) |
-                (of_b.starts & (of_a.word << 1 | of_a.last) & ~of_a.word);
-      const uint32_t found = count_ones(meet);
-      for (uint32_t i = 0; i < found; i += at_once)
-        for (uint32_t k = i; k < i + at_once; ++k) {
-          // The bits up to and with the lowest of `meet`.
-          const uint64_t up_to = meet ^ (meet - 1);
-          to[k] = {of_a.before + count_ones(of_a.starts & up_to) - 1,
-                   of_b.before + count_ones(of_b.starts & up_to) - 1};
-          meet &= meet - 1;
-        }
-      to += found;
-    }
-    return static_cast<size_t>(to - pairs_.data());
-  }
-
-  /// Lists pairs of runs of a row and of the row below it that overlap. Those are left out that
-  /// share samples with such a pair of the row before: its runs belong to the same components.
-  size_t list_new_pairs(const uint64_t* a, uint32_t a_begin, uint32_t a_end, const uint64_t* b,
-                        uint32_t b_begin, uint32_t b_end, uint64_t row) {
-    const size_t most = size_t{a_end - a_begin} + (b_end - b_begin) + at_once;
-    if (pairs_.size() < most) pairs_.resize(most);
-    if (overlaps_row_ + 1 != row) std::fill_n(overlaps_.begin(), words_, uint64_t{0});
-    overlaps_row_ = row;
-    RunPair* to = pairs_.data();
-    RowReader of_a{a, a_begin}, of_b{b, b_begin};
-    uint64_t carry = 0, both = a[0] & b[0];
-    for (size_t w = 0; w < words_; ++w) {
-      of_a.read(w);
-      of_b.read(w);
-      const uint64_t next = w + 1 < words_ ? a[w + 1] & b[w + 1] : 0;
+      const StripReader<corners> here_a = of_a, here_b = of_b;
+      const auto both_of = [&] { return (of_a.low & of_b.low) | (of_a.high & of_b.high); };
+      const auto following = [&] { return both_of() & ~(of_a.starts | of_b.starts); };
+      const uint64_t both = both_of(), follow = following();
       // From samples that they share to the last sample of the overlap.
-      const uint64_t shared = filled_up(both, (both & overlaps_[w]) | (carry & both));
-      overlaps_[w] = both;
+      const uint64_t seeds = (of_a.low & of_b.low & overlaps_[w]) | (carry & follow);
+      const uint64_t shared = filled_up(follow, (seeds & follow) | (seeds << 1 & follow)) | seeds;
+      overlaps_[w] = of_a.high & of_b.high;
       carry = shared >> (bits_per_word - 1);
-      uint64_t ends = both & ~(both >> 1 | next << (bits_per_word - 1)) & ~shared;
-      both = next;
+      uint64_t next = 0;
+      if (w + 1 < words_) {
+        of_a.read(w + 1);
+        of_b.read(w + 1);
+        next = following();
+      }
+      uint64_t ends = both & ~(follow >> 1 | next << (bits_per_word - 1)) & ~shared;
       // One is written in any case.
       const uint32_t found = count_ones(ends);
       uint32_t i = 0;
       do {
         const uint64_t up_to = ends ^ (ends - 1);
-        to[i] = {of_a.before + count_ones(of_a.starts & up_to) - 1,
-                 of_b.before + count_ones(of_b.starts & up_to) - 1};
+        to[i] = {here_a.run_at(up_to), here_b.run_at(up_to)};
         ends &= ends - 1;
       } while (++i < found);
       to += found;
@@ -328,10 +297,9 @@ class Scan {
     return low;
   }
 
-  /// Labels the runs of row n of the band, up to the last that are listed.
-  void label_row(uint64_t n, uint32_t end, uint32_t row) {
+  /// Labels the runs of strip n of the band, up to the last that are listed. `row`: its first.
+  void label_strip(const Strip& strip, uint64_t n, uint32_t end, uint32_t row) {
     constexpr uint32_t none = ComponentBand::none;
-    const uint64_t* const bits = masks_.rest.row(row);
     const uint32_t* const edges = band_.runs.edges.data();
     uint32_t* const nodes = band_.runs.node.data();
     ComponentPart* const parts = band_.parts.data();
@@ -340,10 +308,8 @@ class Scan {
     std::fill(nodes + begin, nodes + end, none);
     const uint32_t before = n > 0 ? band_.runs.begin[n - 1] : begin;
     if (before < begin) {
-      const uint64_t* beside = masks_.rest.row(row - 1);
-      const size_t count = rules_.joins_corners
-                               ? list_pairs<true>(bits, begin, end, beside, before, begin)
-                               : list_pairs<false>(bits, begin, end, beside, before, begin);
+      const size_t count = list_pairs<corners>(
+          strip, begin, strip_of(band_, masks_, masks_.rest, n - 1), before, words_, pairs_.data());
       for (size_t i = 0; i < count; ++i) {
         const RunPair pair = pairs_[i];
         const uint32_t node = nodes[pair.a], other = nodes[pair.b];
@@ -356,17 +322,19 @@ class Scan {
     uint32_t* const fresh = fresh_.data();
     const uint32_t made = take_nodes(nodes + begin, end - begin, nodes_, fresh);
     for (uint32_t i = 0; i < made; ++i) {
-      const uint32_t node = nodes_ + i;
+      const uint32_t node = nodes_ + i, run = begin + fresh[i];
       parents[node] = node;
-      parts[node] = {{}, 0, edges[2 * (begin + fresh[i])], row};
+      parts[node] = {
+          {}, 0, place_of(strip, edges[2 * size_t{run}], edges[2 * size_t{run} + 1], row)};
     }
     nodes_ += made;
-    add_runs(edges + 2 * size_t{begin}, nodes + begin, end - begin, row, parts);
+    add_runs(edges + 2 * size_t{begin}, nodes + begin, band_.counts.data(), end - begin, row,
+             parts);
     const ComponentRuns& below = band_.below;
-    const uint32_t below_begin = below.begin[n], below_end = below.begin[n + 1];
-    if (below_begin == below_end) return;
+    const uint32_t below_begin = below.begin[n];
+    if (below_begin == below.begin[n + 1]) return;
     const size_t count =
-        list_new_pairs(bits, begin, end, masks_.rest_below.row(row), below_begin, below_end, row);
+        list_new_pairs(strip, begin, strip_of(band_, masks_, masks_.rest_below, n), below_begin, n);
     uint32_t* const node_below = band_.node_below.data();
     for (size_t i = 0; i < count; ++i) {
       const RunPair pair = pairs_[i];
@@ -377,31 +345,24 @@ class Scan {
     }
   }
 
-  /// Runs of the rest that touch a known sample in the row `other`.
-  void join_known_beside(uint64_t j, uint64_t n, uint64_t other) {
-    const uint64_t *rest = masks_.rest.row(j), *known = masks_.known.row(other);
-    if (!(rules_.joins_corners ? any_next_to(rest, known, words_)
-                               : any_common(rest, known, words_)))
-      return;
-    RowReader here{rest, band_.runs.begin[n]};
-    for (size_t w = 0; w < words_; ++w) {
-      here.read(w);
-      for_each_bit(here.word & touching(known, w),
-                   [&](unsigned bit) { joined(0, band_.runs.node[here.run_at(bit)]); });
-    }
+  /// Runs of the rest, in row j, that touch a known sample in the row `other`.
+  void join_known_beside(const Strip& strip, uint64_t n, uint64_t j, uint64_t other) {
+    for_each_run_beside<corners>(strip, band_.runs.begin[n], masks_.rest.row(j),
+                                 masks_.known.row(other), words_,
+                                 [&](uint32_t run) { joined(0, band_.runs.node[run]); });
   }
 
-  /// Components below that known samples lie on.
+  /// Components below that known samples of row j lie on.
   void join_known_above(uint64_t j, uint64_t n) {
     const uint64_t *rest = masks_.rest_below.row(j), *known = masks_.known.row(j);
     if (!any_common(rest, known, words_)) return;
-    RowReader under{rest, band_.below.begin[n]};
+    StripReader<corners> under{strip_of(band_, masks_, masks_.rest_below, n), band_.below.begin[n]};
     uint64_t carry = 0;
     for (size_t w = 0; w < words_; ++w) {
       under.read(w);
-      const uint64_t both = under.word & known[w];
+      const uint64_t both = rest[w] & known[w];
       for_each_bit(both & ~(both << 1 | carry), [&](unsigned bit) {
-        uint32_t& node = band_.node_below[band_.below.component(under.run_at(bit))];
+        uint32_t& node = band_.node_below[band_.below.component(under.run_at(bits_to(bit)))];
         node = node == ComponentBand::none ? 0 : joined(0, node);
       });
       carry = both >> (bits_per_word - 1);
@@ -451,13 +412,44 @@ class Scan {
   uint32_t nodes_ = 1;
   std::vector<RunPair>& pairs_;
   std::vector<uint32_t>& fresh_;
-  std::vector<uint64_t>& overlaps_;  // of a row and the one below it
-  uint64_t overlaps_row_ = UINT64_MAX - 1;
+  std::vector<uint64_t>& overlaps_;  // of the second row of a strip and the one below it
+  uint64_t overlaps_strip_ = UINT64_MAX - 1;
 };
 
 void scan_target(ComponentBand& band, ComponentMasks& masks, const ComponentRules& rules,
                  const uint64_t* rows, uint64_t nx, uint64_t ny, uint64_t layer) {
-  Scan(band, masks, rules, rows, nx, ny, layer).run();
+  if (rules.joins_corners)
+    Scan<true>(band, masks, rules, rows, nx, ny, layer).run();
+  else
+    Scan<false>(band, masks, rules, rows, nx, ny, layer).run();
+}
+
+template <bool corners>
+void find_seam_of(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,
+                  ComponentSeam& seam) {
+  const size_t words = masks.rest.words;
+  const Strip of_low = strip_of(low, masks, masks.rest, low.runs.strips() - 1);
+  const Strip of_high = strip_of(high, masks, masks.rest, 0);
+  const uint32_t low_begin = low.runs.begin[low.runs.strips() - 1], high_begin = high.runs.begin[0];
+  seam.pairs.resize(words * bits_per_word + at_once);
+  seam.pairs.resize(
+      list_pairs<corners>(of_high, high_begin, of_low, low_begin, words, seam.pairs.data()));
+  for (RunPair& pair : seam.pairs) std::swap(pair.a, pair.b);
+  seam.low_known.clear();
+  seam.high_known.clear();
+  if (!masks.has_known) return;
+  for_each_run_beside<corners>(of_low, low_begin, of_low.high, masks.known.row(high.begin), words,
+                               [&](uint32_t run) { seam.low_known.push_back(run); });
+  for_each_run_beside<corners>(of_high, high_begin, of_high.low, masks.known.row(low.end - 1),
+                               words, [&](uint32_t run) { seam.high_known.push_back(run); });
+}
+
+void seam_target(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,
+                 bool joins_corners, ComponentSeam& seam) {
+  if (joins_corners)
+    find_seam_of<true>(low, high, masks, seam);
+  else
+    find_seam_of<false>(low, high, masks, seam);
 }
 
 void measure_target(ComponentBand& band, const ComponentMask& known) {
@@ -492,10 +484,16 @@ namespace msq {
 
 HWY_EXPORT(scan_target);
 HWY_EXPORT(measure_target);
+HWY_EXPORT(seam_target);
 
 void scan_band(ComponentBand& band, ComponentMasks& masks, const ComponentRules& rules,
                const uint64_t* rows, uint64_t nx, uint64_t ny, uint64_t layer) {
   HWY_DYNAMIC_DISPATCH(scan_target)(band, masks, rules, rows, nx, ny, layer);
+}
+
+void find_seam(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,
+               bool joins_corners, ComponentSeam& seam) {
+  HWY_DYNAMIC_DISPATCH(seam_target)(low, high, masks, joins_corners, seam);
 }
 
 void measure_known(ComponentBand& band, const ComponentMask& known) {

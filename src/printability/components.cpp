@@ -26,9 +26,9 @@ ComponentTotals totals_of(const ComponentPart& part, uint64_t layer, double heig
           static_cast<double>(part.samples) * height,
           layer,
           layer,
-          {part.low_x(), part.row},
+          {part.low_x(), static_cast<uint32_t>(part.place >> 32)},
           {part.high_x(), part.high_y()},
-          {part.first, part.row}};
+          {static_cast<uint32_t>(part.place), static_cast<uint32_t>(part.place >> 32)}};
 }
 
 }  // namespace
@@ -51,14 +51,16 @@ void ComponentTotals::merge(const ComponentTotals& other) {
 void ComponentBand::drop_known_runs(ComponentMasks& masks) {
   uint32_t kept = 0;
   const size_t words = masks.known.words;
-  for (uint64_t j = begin; j < end; ++j) {
-    const uint64_t n = j - begin;
+  for (size_t n = 0; n < runs.strips(); ++n) {
+    const uint64_t first_row = begin + rows_of_strip * n;
+    const uint64_t end_row = std::min(first_row + rows_of_strip, end);
     const uint32_t from = runs.begin[n], to = runs.begin[n + 1];
     runs.begin[n] = kept;
     bool has_dropped = false;
     for (uint32_t r = from; r < to; ++r) {
       if (runs.component(r) == 0) {
-        set_bits(masks.known.row(j), runs.first(r), runs.end(r) - 1);
+        for (uint64_t j = first_row; j < end_row; ++j)
+          add_bits(masks.known.row(j), masks.rest.row(j), runs.first(r), runs.end(r) - 1);
         has_dropped = true;
         continue;
       }
@@ -67,9 +69,10 @@ void ComponentBand::drop_known_runs(ComponentMasks& masks) {
       runs.node[kept++] = runs.node[r];
     }
     if (!has_dropped) continue;
-    for (size_t w = 0; w < words; ++w) masks.rest.row(j)[w] &= ~masks.known.row(j)[w];
+    for (uint64_t j = first_row; j < end_row; ++j)
+      for (size_t w = 0; w < words; ++w) masks.rest.row(j)[w] &= ~masks.known.row(j)[w];
   }
-  runs.begin[end - begin] = kept;
+  runs.begin.back() = kept;
 }
 
 void ComponentBand::make_known(uint32_t number, ComponentMasks& masks) {
@@ -81,7 +84,7 @@ void ComponentBand::make_known(uint32_t number, ComponentMasks& masks) {
 uint64_t ComponentBand::bytes() const {
   uint64_t all = capacity_bytes(runs) + capacity_bytes(below) + capacity_bytes(has_rest);
   for (const std::vector<uint32_t>* each :
-       {&parents, &node_below, &roots, &fresh, &global, &global_below, &heirs})
+       {&parents, &node_below, &roots, &counts, &fresh, &global, &global_below, &heirs})
     all += capacity_bytes(*each);
   return all + capacity_bytes(parts) + capacity_bytes(pairs) + capacity_bytes(overlaps);
 }
@@ -105,22 +108,25 @@ Components::Components(uint64_t nx, uint64_t ny, Rules rules, unsigned bands)
     mask->bits.resize(words * ny);
     mask->words = words;
   }
+  masks_.no_row.resize(words);
+  const uint64_t strips = (ny + rows_of_strip - 1) / rows_of_strip;
   for (unsigned b = 0; b < bands; ++b) {
     ComponentBand& band = bands_[b];
-    band.begin = ny * b / bands;
-    band.end = ny * (b + 1) / bands;
-    const size_t rows = static_cast<size_t>(band.end - band.begin);
-    band.has_rest.resize(rows);
-    band.runs.begin.assign(rows + 1, 0);
-    band.below.begin.assign(rows + 1, 0);
+    const uint64_t first = strips * b / bands, end = strips * (b + 1) / bands;
+    band.begin = rows_of_strip * first;
+    band.end = std::min(rows_of_strip * end, ny);
+    band.has_rest.resize(static_cast<size_t>(band.end - band.begin));
+    band.runs.begin.assign(static_cast<size_t>(end - first) + 1, 0);
+    band.below.begin = band.runs.begin;
   }
 }
 
 uint64_t Components::held_bytes() const {
-  uint64_t all = capacity_bytes(live_) + capacity_bytes(next_) + capacity_bytes(parents_) +
-                 capacity_bytes(numbers_) + capacity_bytes(heirs_) + capacity_bytes(has_below_) +
-                 capacity_bytes(events_.islands) + capacity_bytes(events_.cups) +
-                 capacity_bytes(events_.ended);
+  uint64_t all = capacity_bytes(seam_.pairs) + capacity_bytes(seam_.low_known) +
+                 capacity_bytes(seam_.high_known) + capacity_bytes(live_) + capacity_bytes(next_) +
+                 capacity_bytes(parents_) + capacity_bytes(numbers_) + capacity_bytes(heirs_) +
+                 capacity_bytes(has_below_) + capacity_bytes(events_.islands) +
+                 capacity_bytes(events_.cups) + capacity_bytes(events_.ended);
   for (const ComponentBand& band : bands_) all += sizeof band + band.bytes();
   return all;
 }
@@ -174,26 +180,12 @@ void Components::join(double height) {
   number(height);
 }
 
-/// Of the last row of a band and the first of the next.
 void Components::join_seam(const ComponentBand& low, const ComponentBand& high) {
-  const uint64_t rows = low.end - low.begin;
-  const uint32_t reach = rules_.joins_corners ? 1 : 0;
-  const uint32_t a = low.runs.begin[rows - 1], a_end = low.runs.begin[rows];
-  const uint32_t b = high.runs.begin[0], b_end = high.runs.begin[1];
-  for_each_overlap(low.runs, a, a_end, high.runs, b, b_end, reach, [&](uint32_t x, uint32_t y) {
-    unite(low.base + low.runs.component(x), high.base + high.runs.component(y));
-  });
-  if (!masks_.has_known) return;
-  const auto join_known = [&](const ComponentBand& band, uint32_t first, uint32_t end,
-                              const uint64_t* known) {
-    for (uint32_t r = first; r < end; ++r) {
-      const uint64_t from = band.runs.first(r) - std::min(band.runs.first(r), reach);
-      const uint64_t to = std::min<uint64_t>(uint64_t{band.runs.end(r)} - 1 + reach, nx_ - 1);
-      if (any_bit(known, from, to)) unite(0, band.base + band.runs.component(r));
-    }
-  };
-  join_known(low, a, a_end, masks_.known.row(high.begin));
-  join_known(high, b, b_end, masks_.known.row(low.end - 1));
+  find_seam(low, high, masks_, rules_.joins_corners, seam_);
+  for (const RunPair pair : seam_.pairs)
+    unite(low.base + low.runs.component(pair.a), high.base + high.runs.component(pair.b));
+  for (const uint32_t run : seam_.low_known) unite(0, low.base + low.runs.component(run));
+  for (const uint32_t run : seam_.high_known) unite(0, high.base + high.runs.component(run));
 }
 
 /// Numbers the components that have runs in this layer, in the order of their first runs.

@@ -50,30 +50,6 @@ HWY_INLINE WordsV filled(WordsV words, WordsV seeds) {
   return found;
 }
 
-/// Divides the bits of a row: `known` are those of `seeds`, and of the parts of their runs that lie
-/// in the same word. Returns whether there are others. No two of the rows are the same.
-inline bool fill_words(const uint64_t* HWY_RESTRICT row, const uint64_t* HWY_RESTRICT seeds,
-                       uint64_t* HWY_RESTRICT known, uint64_t* HWY_RESTRICT rest, size_t words) {
-  const Words d;
-  const size_t lanes = hn::Lanes(d), whole = words / lanes * lanes;
-  WordsV any = hn::Zero(d);
-  for (size_t w = 0; w < whole; w += lanes) {
-    const WordsV word = hn::LoadU(d, row + w);
-    const WordsV found = filled(word, hn::And(word, hn::LoadU(d, seeds + w)));
-    const WordsV others = hn::AndNot(found, word);
-    hn::StoreU(found, d, known + w);
-    hn::StoreU(others, d, rest + w);
-    any = hn::Or(any, others);
-  }
-  uint64_t any_tail = 0;
-  for (size_t w = whole; w < words; ++w) {
-    known[w] = filled_down(row[w], filled_up(row[w], row[w] & seeds[w]));
-    rest[w] = row[w] & ~known[w];
-    any_tail |= rest[w];
-  }
-  return any_tail != 0 || !is_zero(any);
-}
-
 /// The words before and after those of a vector.
 class Neighbours {
  public:
@@ -111,6 +87,50 @@ class Neighbours {
   int64_t before_[8], after_[8];
 };
 
+/// Samples of the row `beside`, and of its neighbours with corners, for a vector of words.
+template <bool corners>
+HWY_INLINE WordsV touching(const Neighbours& neighbours, const uint64_t* beside, size_t words,
+                           size_t w) {
+  const WordsV word = hn::LoadU(Words(), beside + w);
+  if constexpr (!corners) return word;
+  return hn::Or(hn::Or(word, neighbours.bits(word, beside, words, w)),
+                hn::Or(hn::ShiftLeft<1>(word), hn::ShiftRight<1>(word)));
+}
+
+/// Divides the bits of a row: `known` are those above or beside samples of two other rows, and of
+/// the parts of their runs that lie in the same word. Returns whether there are others. The row and
+/// those that are written are not the same as any other.
+template <bool corners>
+inline bool fill_words(const uint64_t* HWY_RESTRICT row, const uint64_t* below,
+                       const uint64_t* beside, uint64_t* HWY_RESTRICT known,
+                       uint64_t* HWY_RESTRICT rest, size_t words) {
+  const Words d;
+  const Neighbours neighbours;
+  const size_t lanes = hn::Lanes(d), whole = words / lanes * lanes;
+  WordsV any = hn::Zero(d);
+  for (size_t w = 0; w < whole; w += lanes) {
+    const WordsV word = hn::LoadU(d, row + w);
+    WordsV found = filled(word, hn::And(word, hn::LoadU(d, below + w)));
+    WordsV others = hn::AndNot(found, word);
+    if (!is_zero(others)) {
+      const WordsV seeds = hn::And(others, touching<corners>(neighbours, beside, words, w));
+      found = filled(word, hn::Or(found, seeds));
+      others = hn::AndNot(found, word);
+    }
+    hn::StoreU(found, d, known + w);
+    hn::StoreU(others, d, rest + w);
+    any = hn::Or(any, others);
+  }
+  uint64_t any_tail = 0;
+  for (size_t w = whole; w < words; ++w) {
+    const uint64_t seeds = below[w] | (corners ? spread_word(beside, words, w) : beside[w]);
+    known[w] = filled_down(row[w], filled_up(row[w], row[w] & seeds));
+    rest[w] = row[w] & ~known[w];
+    any_tail |= rest[w];
+  }
+  return any_tail != 0 || !is_zero(any);
+}
+
 /// Adds to `known` the runs of the rest that go on in another word where they are known, or that
 /// are beside samples of a row, which may be null. Before, fill_words() has been there. Returns
 /// whether others are left.
@@ -125,14 +145,13 @@ inline bool extend_row(const uint64_t* HWY_RESTRICT row, const uint64_t* HWY_RES
     for (size_t w = 0; w < whole; w += lanes) {
       const WordsV word = hn::LoadU(d, row + w), here = hn::LoadU(d, known + w);
       WordsV seeds = neighbours.bits(here, known, words, w);
-      if (beside) {
-        const WordsV touching = hn::LoadU(d, beside + w);
-        seeds = hn::Or(seeds, touching);
-        if constexpr (corners)
-          seeds = hn::Or(hn::Or(seeds, neighbours.bits(touching, beside, words, w)),
-                         hn::Or(hn::ShiftLeft<1>(touching), hn::ShiftRight<1>(touching)));
+      if (beside) seeds = hn::Or(seeds, touching<corners>(neighbours, beside, words, w));
+      const WordsV left = hn::LoadU(d, rest + w);
+      seeds = hn::And(seeds, left);
+      if (is_zero(seeds)) {
+        any = hn::Or(any, left);
+        continue;
       }
-      seeds = hn::And(seeds, hn::LoadU(d, rest + w));
       const WordsV found = filled(word, hn::Or(here, seeds));
       const WordsV others = hn::AndNot(found, word);
       hn::StoreU(found, d, known + w);

@@ -7,6 +7,8 @@
 #include <deque>
 #include <tuple>
 
+#include <hwy/targets.h>
+
 #include "msq_test.h"
 #include "printability/bit_row.h"
 #include "printability/thin.h"
@@ -207,6 +209,20 @@ void assert_same(std::vector<Found> got, std::vector<Found> wanted, const char* 
   if (got != wanted) fail_msg("%s: %zu found, %zu wanted", what, got.size(), wanted.size());
 }
 
+/// The instruction sets of the machine, one after the other.
+class InstructionSets {
+ public:
+  void take_next() {
+    if (!left_) left_ = hwy::SupportedTargets() & HWY_TARGETS;
+    hwy::SetSupportedTargetsForTest(left_ & -left_);
+    left_ &= left_ - 1;
+  }
+  ~InstructionSets() { hwy::SetSupportedTargetsForTest(0); }
+
+ private:
+  static inline int64_t left_ = 0;
+};
+
 void check(const Volume& volume) {
   for (int bits = 0; bits < 16; ++bits) {
     Components::Rules rules;
@@ -220,8 +236,11 @@ void check(const Volume& volume) {
     if (rules.anchors_sides && rules.finds_islands) continue;
     const FoundAll wanted = by_flood(volume, rules);
     FoundAll first;
-    const auto ny = static_cast<unsigned>(volume.n[1]);
-    for (const unsigned bands : {1u, std::min(2u, ny), std::min(5u, ny), ny}) {
+    const auto most =
+        static_cast<unsigned>(Components::most_bands(static_cast<uint64_t>(volume.n[1])));
+    for (const unsigned bands : {1u, std::min(2u, most), std::min(5u, most), most}) {
+      InstructionSets sets;
+      sets.take_next();
       const FoundAll got = by_layers(volume, rules, bands);
       if (bands == 1) {
         assert_same(got.ended, wanted.ended, "components");
@@ -509,7 +528,9 @@ void test_filled_words(void**) {
     for (unsigned begin = 0; begin < 64; ++begin) {
       unsigned end = begin;
       while (end < 64 && word >> end & 1) ++end;
-      if (begin < end && any_bit(&seeds, begin, end - 1)) set_bits(&wanted, begin, end - 1);
+      uint64_t run = 0;
+      if (begin < end) set_bits(&run, begin, end - 1);
+      if (seeds & run) wanted |= run;
       begin = end;
     }
     assert_true(filled_down(word, filled_up(word, seeds)) == wanted);
