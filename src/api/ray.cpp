@@ -36,14 +36,6 @@ struct RayArray {
 /// Rays in an order that is not the array's come from and go to anywhere.
 constexpr size_t ahead = 16;
 
-HWY_INLINE void prefetch_to_write([[maybe_unused]] msq_ray_hit& hit) {
-#ifdef __GNUC__
-  auto* const first = reinterpret_cast<unsigned char*>(&hit);
-  __builtin_prefetch(first, 1);
-  __builtin_prefetch(first + sizeof hit - 1, 1);
-#endif
-}
-
 void check_ray(const RayArray& rays, uint64_t i) {
   const auto number = static_cast<unsigned long long>(i);
   const Vec3 origin = rays.origins.at(i), direction = rays.direction(i);
@@ -145,7 +137,7 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
             const uint64_t i = numbers[n];
             if (n + ahead < numbers.size()) {
               array.directions.prefetch(numbers[n + ahead]);
-              prefetch_to_write(hits[numbers[n + ahead]]);
+              prefetch_to_write(&hits[numbers[n + ahead]]);
             }
             hits[i] = answer_of(found[n], cell_of(resolved, found[n]), size_of(array.direction(i)),
                                 array.from(i), array.to(i));

@@ -18,6 +18,16 @@ namespace msq {
 /// to.
 constexpr size_t max_simd_doubles = 32;
 
+/// Loads memory that will be written.
+template <class T>
+HWY_INLINE void prefetch_to_write([[maybe_unused]] T* values, [[maybe_unused]] size_t count = 1) {
+#ifdef __GNUC__
+  auto* const first = reinterpret_cast<unsigned char*>(values);
+  __builtin_prefetch(first, 1);
+  __builtin_prefetch(first + count * sizeof(T) - 1, 1);
+#endif
+}
+
 /// Aligned to vectors; uninitialised.
 template <class T>
 using AlignedArray = hwy::AlignedFreeUniquePtr<T[]>;

@@ -6,6 +6,7 @@
 
 #include "base/borrowed.h"
 #include "base/run_parts.h"
+#include "base/simd.h"
 #include "ray/search.h"
 
 namespace msq {
@@ -172,9 +173,16 @@ class Renderer {
       const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
       batch.samples[count] = {x, y, at.y * side + at.x, size};
       batch.seen[count] = {pixel, down.sample * n + right.sample, 0, 0};
+      if (pass.has_data) prefetch_data(y * frame_.row_pixels + x);
       ++count;
     }
     batch.resize(count);
+  }
+
+  /// Of a pixel: pictures are larger than caches, and rays take long enough to load it.
+  HWY_INLINE void prefetch_data(uint64_t pixel) const {
+    if (frame_.depth) prefetch_to_write(frame_.depth + pixel);
+    if (frame_.normal) prefetch_to_write(frame_.normal + 3 * pixel, 3);
   }
 
   void see(const Pass& pass, Batch& batch) const {
