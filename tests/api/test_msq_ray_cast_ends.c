@@ -287,6 +287,59 @@ static void rays_from_a_surface_start_inside(void** state) {
   }
 }
 
+/* Between two boxes without their far faces, whose gap is narrower than the rays' tolerance. */
+static void rays_in_a_narrow_gap_start_outside(void** state) {
+  enum { corners = 8, faces = 5 };
+  static const uint32_t sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const double gap = 3e-11, ends[2][2] = {{0, 1}, {1 + gap, 2}};
+  double vertices[2 * corners][3];
+  uint32_t triangles[4 * faces][3];
+  size_t count = 0;
+  msq_mesh_def def;
+  msq_shape* shape;
+  (void)state;
+  for (uint32_t box = 0; box < 2; ++box) {
+    for (uint32_t corner = 0; corner < corners; ++corner) {
+      vertices[box * corners + corner][0] = ends[box][corner & 1];
+      vertices[box * corners + corner][1] = corner >> 1 & 1;
+      vertices[box * corners + corner][2] = corner >> 2;
+    }
+    for (uint32_t side = 0; side < 6; ++side)
+      for (uint32_t half = 0; side != box && half < 2; ++half, ++count) {
+        triangles[count][0] = box * corners + sides[side][0];
+        triangles[count][1] = box * corners + sides[side][1 + half];
+        triangles[count][2] = box * corners + sides[side][2 + half];
+      }
+  }
+  assert_int_equal(count, 4 * faces);
+  msq_context* context = make_context();
+  assert_ok(msq_mesh_def_init(&def, sizeof def));
+  def.vertices = vertices[0];
+  def.vertex_count = 2 * corners;
+  def.triangles = triangles[0];
+  def.triangle_count = count;
+  assert_ok(msq_shape_from_mesh(context, &def, &shape));
+  msq_model* model = make_model(context, shape, NULL, NULL);
+  for (int i = 0; i < many; ++i) {
+    origins[i][0] = 1 + gap * (0.01 + 0.98 * i / many);
+    origins[i][1] = 0.3 + 0.0001 * i;
+    origins[i][2] = 0.4;
+    directions[i][0] = i % 2 ? 1 : -1;
+    directions[i][1] = directions[i][2] = 0;
+  }
+  const msq_rays_def rays = rays_of(many);
+  assert_ok(msq_ray_cast(model, &rays, NULL, hits, many, NULL));
+  for (int i = 0; i < many; ++i) {
+    assert_false(is_inside(model, origins[i][0], origins[i][1], origins[i][2]));
+    if (hits[i].starts_inside || !(hits[i].t > 0 && hits[i].t < 1e-9))
+      fail_msg("ray %d in the gap begins outside; starts_inside is %d, t %g", i,
+               hits[i].starts_inside, hits[i].t);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void rays_through_huge_values_end(void** state) {
   static const char* const texts[] = {
       "exp(57*x)-2",      "x^200-2",           "1e154*sin(x)",  "1e154*sin(x)-1e153",
@@ -444,6 +497,7 @@ int main(void) {
       cmocka_unit_test(rays_through_all_kinds_stop),
       cmocka_unit_test(rays_through_steep_walls_end),
       cmocka_unit_test(rays_from_a_surface_start_inside),
+      cmocka_unit_test(rays_in_a_narrow_gap_start_outside),
       cmocka_unit_test(rays_through_huge_values_end),
       cmocka_unit_test(directions_may_have_any_length),
       cmocka_unit_test(cameras_see_from_anywhere),
