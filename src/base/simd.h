@@ -8,6 +8,7 @@
 #include <hwy/aligned_allocator.h>
 #include <hwy/cache_control.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <new>
 
@@ -18,7 +19,14 @@ namespace msq {
 /// to.
 constexpr size_t max_simd_doubles = 32;
 
-/// Loads memory that will be written.
+/// Begins to load memory that will be read in any order.
+HWY_INLINE void prefetch_all(const void* data, size_t size) {
+  constexpr size_t line = 64;
+  const char* const first = static_cast<const char*>(data);
+  for (size_t i = 0; i < size + line - 1; i += line) hwy::Prefetch(first + std::min(i, size - 1));
+}
+
+/// Begins to load memory that will be written.
 template <class T>
 HWY_INLINE void prefetch_to_write([[maybe_unused]] T* values, [[maybe_unused]] size_t count = 1) {
 #ifdef __GNUC__

@@ -78,8 +78,8 @@ class RayBrick final : public CellData {
 
   /// Begins to load the edges, which are read in any order, from main memory.
   HWY_INLINE void prefetch() const {
-    prefetch(edges_.data(), edges_.size() * sizeof edges_[0]);
-    prefetch(nodes_.data(), nodes_.size() * sizeof nodes_[0]);
+    prefetch_all(edges_.data(), edges_.size() * sizeof edges_[0]);
+    prefetch_all(nodes_.data(), nodes_.size() * sizeof nodes_[0]);
   }
 
   uint64_t bytes() const override {
@@ -89,12 +89,6 @@ class RayBrick final : public CellData {
   }
 
  private:
-  static HWY_INLINE void prefetch(const void* data, size_t size) {
-    constexpr size_t line = 64;
-    const char* const first = static_cast<const char*>(data);
-    for (size_t i = 0; i < size + line - 1; i += line) hwy::Prefetch(first + std::min(i, size - 1));
-  }
-
   static constexpr uint32_t no_seeds = UINT32_MAX;
   /// Maximum distance of seeds' cells from their owner's along each axis; farther ones are not
   /// stored.

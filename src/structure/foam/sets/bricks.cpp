@@ -92,6 +92,7 @@ void for_each_brick(const FoamData& foam, const Box3& box, bool is_layer, const 
       data =
           across < 0 ? fetch_brick(foam, corner) : fetch_brick_of_layer(foam, corner, near, across);
     const auto& brick = static_cast<const EdgeBrick&>(*data);
+    brick.segments().prefetch();
     const Vec3 origin =
         Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
         brick.origin() * unit;
