@@ -62,7 +62,9 @@ class SegmentSet {
   const float* bound(int b) const { return bounds_.data() + static_cast<size_t>(b) * runs(); }
 
   /// Begins to load the nodes from main memory.
-  HWY_INLINE void prefetch() const { prefetch_all(nodes_.data(), nodes_.size() * sizeof nodes_[0]); }
+  HWY_INLINE void prefetch() const {
+    prefetch_all(nodes_.data(), nodes_.size() * sizeof nodes_[0]);
+  }
 
   uint64_t bytes() const {
     return (nodes_.capacity() + bounds_.capacity()) * sizeof(float) +
