@@ -26,7 +26,7 @@ HWY_INLINE void prefetch_all(const void* data, size_t size) {
   for (size_t i = 0; i < size + line - 1; i += line) hwy::Prefetch(first + std::min(i, size - 1));
 }
 
-/// Begins to load memory that will be written.
+/// Begins to load values that will be written: the lines of the first and of the last one.
 template <class T>
 HWY_INLINE void prefetch_to_write([[maybe_unused]] T* values, [[maybe_unused]] size_t count = 1) {
 #ifdef __GNUC__

@@ -47,10 +47,13 @@ struct ComponentTotals {
 /// a strip is a range of x in which each sample is joined to the next. Of a strip at the end, the
 /// second row may be missing.
 constexpr uint64_t rows_of_strip = 2;
+constexpr uint64_t strips_for(uint64_t rows) {
+  return (rows + rows_of_strip - 1) / rows_of_strip;
+}
 
-/// Runs of samples that are not known, by strips: those of strip n are [begin[n], begin[n + 1]).
-/// Run r has samples between edges[2 r] and edges[2 r + 1] - 1. The arrays may be longer than the
-/// runs.
+/// Runs of samples that are not known, by strips: those of strip n are [begin[n], begin[n + 1]). At
+/// each x from edges[2 r] to edges[2 r + 1] - 1, run r has a sample of either row or both. The next
+/// run may begin at edges[2 r + 1]. The arrays may be longer than the runs.
 struct ComponentRuns {
   std::vector<uint32_t> edges;
   std::vector<uint32_t> node;     ///< by run: the node of the band that it was given
@@ -99,8 +102,9 @@ struct ComponentMask {
 struct ComponentMasks {
   bool has_known = false;  ///< otherwise `known` is not used, and the rest is all samples
   ComponentMask known, known_below;
-  ComponentMask rest, rest_below;  ///< the other samples
-  std::vector<uint64_t> no_row;    ///< a row without samples
+  /// The other samples. Rows that are anchored as a whole are never written, so they stay empty.
+  ComponentMask rest, rest_below;
+  std::vector<uint64_t> no_row;  ///< a row without samples
 };
 
 struct ComponentBand {
@@ -154,7 +158,8 @@ void measure_known(ComponentBand& band, const ComponentMask& known);
 
 /// Runs of two bands that touch, one above the other.
 struct ComponentSeam {
-  std::vector<RunPair> pairs;
+  std::vector<RunPair> pairs;  ///< the first `count` of them
+  size_t count = 0;
   std::vector<uint32_t> low_known, high_known;  ///< that touch known samples of the other band
 };
 void find_seam(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,

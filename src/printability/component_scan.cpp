@@ -431,10 +431,10 @@ void find_seam_of(const ComponentBand& low, const ComponentBand& high, const Com
   const Strip of_low = strip_of(low, masks, masks.rest, low.runs.strips() - 1);
   const Strip of_high = strip_of(high, masks, masks.rest, 0);
   const uint32_t low_begin = low.runs.begin[low.runs.strips() - 1], high_begin = high.runs.begin[0];
-  seam.pairs.resize(words * bits_per_word + at_once);
-  seam.pairs.resize(
-      list_pairs<corners>(of_high, high_begin, of_low, low_begin, words, seam.pairs.data()));
-  for (RunPair& pair : seam.pairs) std::swap(pair.a, pair.b);
+  if (seam.pairs.empty()) seam.pairs.resize(words * bits_per_word + at_once);
+  seam.count =
+      list_pairs<corners>(of_high, high_begin, of_low, low_begin, words, seam.pairs.data());
+  for (size_t i = 0; i < seam.count; ++i) std::swap(seam.pairs[i].a, seam.pairs[i].b);
   seam.low_known.clear();
   seam.high_known.clear();
   if (!masks.has_known) return;

@@ -2,6 +2,7 @@
 #include "printability/components.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "base/status.h"
@@ -109,7 +110,7 @@ Components::Components(uint64_t nx, uint64_t ny, Rules rules, unsigned bands)
     mask->words = words;
   }
   masks_.no_row.resize(words);
-  const uint64_t strips = (ny + rows_of_strip - 1) / rows_of_strip;
+  const uint64_t strips = strips_for(ny);
   for (unsigned b = 0; b < bands; ++b) {
     ComponentBand& band = bands_[b];
     const uint64_t first = strips * b / bands, end = strips * (b + 1) / bands;
@@ -183,7 +184,7 @@ void Components::join(double height) {
 
 void Components::join_seam(const ComponentBand& low, const ComponentBand& high) {
   find_seam(low, high, masks_, rules_.joins_corners, seam_);
-  for (const RunPair pair : seam_.pairs)
+  for (const RunPair pair : std::span(seam_.pairs).first(seam_.count))
     unite(low.base + low.runs.component(pair.a), high.base + high.runs.component(pair.b));
   for (const uint32_t run : seam_.low_known) unite(0, low.base + low.runs.component(run));
   for (const uint32_t run : seam_.high_known) unite(0, high.base + high.runs.component(run));

@@ -32,7 +32,7 @@ class Components {
     void clear();
   };
 
-  /// bands: at least 1, at most most_bands(ny).
+  /// bands: at least 1, at most strips_for(ny).
   Components(uint64_t nx, uint64_t ny, Rules rules, unsigned bands);
 
   /// A layer is added in four steps: scan() for each band, join(), settle() for each band,
@@ -45,7 +45,6 @@ class Components {
   /// After the last layer: the components that reach it, as `ended`.
   const Events& end();
 
-  static uint64_t most_bands(uint64_t ny) { return (ny + rows_of_strip - 1) / rows_of_strip; }
   unsigned bands() const { return static_cast<unsigned>(bands_.size()); }
   uint64_t first_row(unsigned band) const { return bands_[band].begin; }
   uint64_t end_row(unsigned band) const { return bands_[band].end; }

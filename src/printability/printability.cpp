@@ -54,8 +54,7 @@ double layer_face(const Slicer& slicer, uint64_t index, int side) {
 unsigned band_count(uint64_t words, uint64_t ny, unsigned threads) {
   constexpr uint64_t min_words = 512;
   if (threads < 2) return 1;
-  const uint64_t most =
-      std::min({uint64_t{2} * threads, words / min_words, Components::most_bands(ny)});
+  const uint64_t most = std::min({uint64_t{2} * threads, words / min_words, strips_for(ny)});
   return static_cast<unsigned>(std::max<uint64_t>(most, 1));
 }
 

@@ -179,10 +179,12 @@ class Renderer {
     batch.resize(count);
   }
 
-  /// Of a pixel: pictures are larger than caches, and rays take long enough to load it.
+  /// Begins to load what is written of a pixel later: pictures are larger than caches.
   HWY_INLINE void prefetch_data(uint64_t pixel) const {
     if (frame_.depth) prefetch_to_write(frame_.depth + pixel);
     if (frame_.normal) prefetch_to_write(frame_.normal + 3 * pixel, 3);
+    if (frame_.scale) prefetch_to_write(frame_.scale + pixel);
+    if (frame_.material) prefetch_to_write(frame_.material + pixel);
   }
 
   void see(const Pass& pass, Batch& batch) const {

@@ -154,7 +154,8 @@ bool Mesh::find_along_open(const Ray& ray, double from, double to, bool wanted, 
     const double before = crossing;
     Vec3 normal;
     crosses = boundary().first_crossing(ray, search_from, to, tolerance, crossing, normal);
-    crossing = std::max(crossing, from);  // what is crossed there may be found a little before it
+    // What is crossed where the ray begins may be found a little before it.
+    if (crosses) crossing = std::max(crossing, from);
     if (find_between(ray, at, crosses ? std::max(at, crossing - tolerance) : to, wanted, t, least,
                      poll)) {
       if (t == at && inside(ray.at(before)) == wanted) t = before;

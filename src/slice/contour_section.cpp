@@ -92,7 +92,7 @@ void ContourSection::prefetch(uint32_t row) const {
   if (row >= grid_.rows()) return;
   const size_t words = grid_.row_words(), first = size_t{row} * words;
   const auto fetch = [](const auto* begin, const auto* end) {
-    for (; begin < end; begin += 64 / sizeof *begin) hwy::Prefetch(begin);
+    prefetch_all(begin, static_cast<size_t>(end - begin) * sizeof *begin);
   };
   fetch(grid_.row(row), grid_.row(row) + words);
   for (const EdgeWord* edges : {horizontal_edges(), vertical_edges()}) {

@@ -8,7 +8,8 @@
 //
 // Membership: squares of the plane list the struts whose section may reach into them, about one for
 // each strut. Struts are known within a margin. A point that a strut holds by more than the margin
-// is inside, one that all struts miss by more is outside, and the structure decides the few others.
+// is inside, and one that all struts miss by more is outside. The structure decides the few others,
+// and those near struts that are far thinner than the widest: one bound serves for all radii.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +50,8 @@ class PlaneStruts {
   std::vector<Unseen> find_unseen(const ContourGrid& grid, const Job* job) const;
 
   enum class Found : uint8_t { outside, inside, doubtful };
-  /// Whether any strut holds a point of the plane.
+  /// Whether any strut holds a point of the plane. Which points are doubtful may depend on the points
+  /// beside them in the array.
   Found find(Vec2 p) const;
   void find(const Vec2* points, size_t count, Found* found) const;
 

@@ -29,7 +29,9 @@ struct SquareLists {
   const PlaneStrut* struts;
   const uint32_t *starts, *lists;  // by square
   SquareAxis u, v;
-  double doubt;  // of squared distances
+  /// Points whose squared distance from an axis, less the squared radius, is nearer to 0 are in
+  /// doubt.
+  double doubt;
 };
 
 }  // namespace
@@ -82,7 +84,7 @@ void find_in_squares(const Vec2* points, size_t count, const SquareLists& of,
                squares + i);
   }
   // Branches on each point and each strut would be predicted wrongly too often, so where groups end
-  // is counted, and struts are taken by twos: of an odd number, the first one twice.
+  // is counted, and struts are taken by twos: of an odd number, the last one twice.
   size_t ends[points_at_once], groups = 0;
   for (size_t n = 0; n < count; ++n) {
     ends[groups] = n + 1;
@@ -115,7 +117,8 @@ void find_in_squares(const Vec2* points, size_t count, const SquareLists& of,
         add(of.struts[i[0]]);
         add(of.struts[i[i + 1 < list_end]]);
       }
-      // Points behind the group get bits, too: a strut that holds a point does so from any list.
+      // Points behind the group get bits, too. They are true, since a strut that holds a point or is
+      // near it does so from any list.
       are_inside |= bits_of(d, hn::Lt(least, set(-of.doubt))) << n;
       are_near |= bits_of(d, hn::Le(least, set(of.doubt))) << n;
     }
@@ -149,12 +152,15 @@ void PlaneStruts::find(const Vec2* points, size_t count, Found* found) const {
   const auto axis = [](const Squares& s) {
     return SquareAxis{s.low, s.high, s.inverse_side, static_cast<double>(s.count - 1)};
   };
+  // With the margin m, for each radius r up to the widest R: (r + m)^2 <= r^2 + (2 R + m) m, and
+  // r^2 - (2 R + m) m <= (r - m)^2, if r >= m. Nothing is inside thinner struts.
+  const double doubt = (2 * widest_ + margin_) * margin_;
   const SquareLists lists{memory_->struts.data(),
                           memory_->starts.data(),
                           memory_->lists.data(),
                           axis(u_),
                           axis(v_),
-                          (2 * widest_ + margin_) * margin_};
+                          doubt};
   for (size_t done = 0; done < count; done += points_at_once) HWY_DYNAMIC_DISPATCH(find_in_squares)
   (points + done, std::min(count - done, points_at_once), lists, found + done);
 }

@@ -61,7 +61,7 @@ class SegmentSet {
   /// Bound 0 to 5 (minimum x, y, z, maximum x, y, z) of all runs.
   const float* bound(int b) const { return bounds_.data() + static_cast<size_t>(b) * runs(); }
 
-  /// Begins to load the nodes from main memory.
+  /// Begins to load the nodes, which segments read in any order, from main memory.
   HWY_INLINE void prefetch() const {
     prefetch_all(nodes_.data(), nodes_.size() * sizeof nodes_[0]);
   }

@@ -209,21 +209,20 @@ void assert_same(std::vector<Found> got, std::vector<Found> wanted, const char* 
   if (got != wanted) fail_msg("%s: %zu found, %zu wanted", what, got.size(), wanted.size());
 }
 
-/// The instruction sets of the machine, one after the other.
-class InstructionSets {
+/// Kernels use one of the machine's instruction sets meanwhile.
+class AnyInstructionSet {
  public:
-  void take_next() {
-    if (!left_) left_ = hwy::SupportedTargets() & HWY_TARGETS;
-    hwy::SetSupportedTargetsForTest(left_ & -left_);
-    left_ &= left_ - 1;
+  explicit AnyInstructionSet(Random& random) {
+    std::vector<int64_t> sets;
+    for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1)
+      sets.push_back(all & -all);
+    hwy::SetSupportedTargetsForTest(sets[random.below(sets.size())]);
   }
-  ~InstructionSets() { hwy::SetSupportedTargetsForTest(0); }
-
- private:
-  static inline int64_t left_ = 0;
+  ~AnyInstructionSet() { hwy::SetSupportedTargetsForTest(0); }
 };
 
 void check(const Volume& volume) {
+  static Random random(7);
   for (int bits = 0; bits < 16; ++bits) {
     Components::Rules rules;
     rules.joins_corners = bits & 1;
@@ -236,11 +235,9 @@ void check(const Volume& volume) {
     if (rules.anchors_sides && rules.finds_islands) continue;
     const FoundAll wanted = by_flood(volume, rules);
     FoundAll first;
-    const auto most =
-        static_cast<unsigned>(Components::most_bands(static_cast<uint64_t>(volume.n[1])));
+    const auto most = static_cast<unsigned>(strips_for(static_cast<uint64_t>(volume.n[1])));
     for (const unsigned bands : {1u, std::min(2u, most), std::min(5u, most), most}) {
-      InstructionSets sets;
-      sets.take_next();
+      const AnyInstructionSet set(random);
       const FoundAll got = by_layers(volume, rules, bands);
       if (bands == 1) {
         assert_same(got.ended, wanted.ended, "components");
@@ -260,10 +257,11 @@ void test_random_volumes(void**) {
   Random random(1);
   const size_t count = std::max<size_t>(test_count(400), 40);
   for (size_t n = 0; n < count; ++n) {
-    // Now and then rows of several words.
-    const bool is_wide = n % 4 == 0;
-    Volume volume(1 + static_cast<int>(random.below(is_wide ? 200 : 12)),
-                  1 + static_cast<int>(random.below(is_wide ? 6 : 12)),
+    // Now and then rows of several words, also of whole ones.
+    const bool is_wide = n % 4 == 0, has_whole_words = n % 8 == 0;
+    const int width = has_whole_words ? 64 * (1 + static_cast<int>(random.below(3)))
+                                      : 1 + static_cast<int>(random.below(is_wide ? 200 : 12));
+    Volume volume(width, 1 + static_cast<int>(random.below(is_wide ? 6 : 12)),
                   1 + static_cast<int>(random.below(6)));
     const double density = random.unit();
     for (uint8_t& sample : volume.samples) sample = random.unit() < density;

@@ -336,6 +336,7 @@ void test_threads(void**) {
 
 /// Struts tell where points of a plane are as the structure does, also next to the boundary.
 void test_struts_tell_membership(void**) {
+  using Found = PlaneStruts::Found;
   const LayerPlane planes[] = {{2, 1.5}, {0, 1.15}, {1, 2.2}};
   const std::function<Ref<const Structure>()> structures[] = {
       [] { return foam(1.0, Parameter(0.1)); }, [] { return foam(0.4, Parameter(0.15)); },
@@ -349,15 +350,21 @@ void test_struts_tell_membership(void**) {
       const PlaneStruts struts(*structure, grid, around, context()->budget, nullptr);
       uint64_t doubtful = 0, inside = 0;
       const int samples = 200 + static_cast<int>(3000 * test_scale());
-      const auto check = [&](Vec2 p) {
+      std::vector<Vec2> points;
+      const auto compare = [&](Vec2 p, Found found) {
         const bool wanted = structure->inside(plane.at(p.x, p.y));
-        const PlaneStruts::Found found = struts.find(p);
-        doubtful += found == PlaneStruts::Found::doubtful;
-        inside += wanted;
-        if (found != PlaneStruts::Found::doubtful &&
-            (found == PlaneStruts::Found::inside) != wanted)
+        if (found != Found::doubtful && (found == Found::inside) != wanted)
           fail_msg("(%.17g, %.17g) is not where the struts say", p.x, p.y);
         return wanted;
+      };
+      const auto check = [&](Vec2 p) {
+        const Found found = struts.find(p);
+        const bool is_inside = compare(p, found);
+        doubtful += found == Found::doubtful;
+        inside += is_inside;
+        points.push_back(p);
+        if (random.below(50) == 0) points.push_back({low[0] - 2 * around, p.y});
+        return is_inside;
       };
       for (int n = 0; n < samples; ++n) {
         const auto point = [&] {
@@ -374,10 +381,15 @@ void test_struts_tell_membership(void**) {
       }
       assert_true(inside > 0);
       // Those of bisection, from 1e-6 of a cell on.
-      assert_true(doubtful > 0);
-      assert_true(doubtful < static_cast<uint64_t>(6 * samples));
-      assert_int_equal(static_cast<int>(struts.find({low[0] - 2 * around, low[1]})),
-                       static_cast<int>(PlaneStruts::Found::doubtful));
+      assert_true(doubtful > 0 && doubtful < static_cast<uint64_t>(6 * samples));
+      assert_true(struts.find({low[0] - 2 * around, low[1]}) == Found::doubtful);
+      // Several at a time. Those of a bisection are near each other.
+      std::vector<Found> found(points.size());
+      for (size_t first = 0, count; first < points.size(); first += count) {
+        count = std::min<size_t>(points.size() - first, 1 + random.below(200));
+        struts.find(points.data() + first, count, found.data() + first);
+      }
+      for (size_t n = 0; n < points.size(); ++n) compare(points[n], found[n]);
     }
 }
 

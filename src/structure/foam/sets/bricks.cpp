@@ -88,11 +88,12 @@ void for_each_brick(const FoamData& foam, const Box3& box, bool is_layer, const 
   for_each_corner(foam, box, [&](CellIndex corner, const Box3& near) {
     check_cancelled(job);
     if (!are_equal) data.reset();
-    if (!data)
+    const bool is_new = !data;
+    if (is_new)
       data =
           across < 0 ? fetch_brick(foam, corner) : fetch_brick_of_layer(foam, corner, near, across);
     const auto& brick = static_cast<const EdgeBrick&>(*data);
-    brick.segments().prefetch();
+    if (is_new) brick.segments().prefetch();
     const Vec3 origin =
         Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
         brick.origin() * unit;
