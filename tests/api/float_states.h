@@ -152,7 +152,7 @@ static int notes_messages = 1;
 /* ---- what callbacks see -----------------------------------------------------------------------
  */
 
-static volatile int is_wrong_state, was_elsewhere;
+static int is_wrong_state, was_elsewhere; /* callbacks set them on several threads at once */
 static pthread_t host_thread;
 
 /* To begin a callback with: notes whether it is in the host's environment, and whether it is on
@@ -160,10 +160,12 @@ static pthread_t host_thread;
 static inline void check_state(void) {
   const float_state now = read_state();
   float_state wanted;
-  if (!pthread_equal(pthread_self(), host_thread)) was_elsewhere = 1;
+  if (!pthread_equal(pthread_self(), host_thread))
+    __atomic_store_n(&was_elsewhere, 1, __ATOMIC_RELAXED);
   enter_state(host_state);
   wanted = read_state();
-  if (now.control != wanted.control || now.flags != wanted.flags) is_wrong_state = 1;
+  if (now.control != wanted.control || now.flags != wanted.flags)
+    __atomic_store_n(&is_wrong_state, 1, __ATOMIC_RELAXED);
 }
 
 static inline void assert_right_states(void) {
