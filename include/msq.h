@@ -3131,11 +3131,12 @@ typedef struct msq_printability_report {
  * do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22
  * bits per pixel of a layer, and runs and totals of parts outside of the main body, for any
  * height of the stack. Runs and totals are accounted to the context after each layer. Workers share
- * the rows of each layer. Cost: 1.2 to 1.4 times that of msq_slicer_run for bits of foams and
- * turned lattices, 1.4 to 2 times for lattices and functions along the grid, whose bits cost
- * little, and 2 to 3 times with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add
- * to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs
- * in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. */
+ * the rows of each layer. Cost: 1.2 to 1.4 times that of msq_slicer_run for bits of foams of struts
+ * and of turned lattices, 1.7 to 2.5 times for lattices and functions along the grid, whose bits
+ * cost little, and for thousands of enclosed voids in a layer. Where rows repeat, bits are copies,
+ * and the cost is up to 0.2 ns per sample more than theirs. THIN, CUP and OVERHANG add to that: see
+ * docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer),
+ * MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. */
 MSQ_API msq_status msq_printability(const msq_slicer* slicer, const msq_printability_def* def,
                                     msq_findings_fn fn, void* user, msq_printability_report* report,
                                     msq_job* job);
