@@ -50,8 +50,8 @@ class PlaneStruts {
   std::vector<Unseen> find_unseen(const ContourGrid& grid, const Job* job) const;
 
   enum class Found : uint8_t { outside, inside, doubtful };
-  /// Whether any strut holds a point of the plane. Which points are doubtful may depend on the points
-  /// beside them in the array.
+  /// Whether any strut holds a point of the plane. Which points are doubtful may depend on the
+  /// points beside them in the array.
   Found find(Vec2 p) const;
   void find(const Vec2* points, size_t count, Found* found) const;
 

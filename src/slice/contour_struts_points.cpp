@@ -117,8 +117,8 @@ void find_in_squares(const Vec2* points, size_t count, const SquareLists& of,
         add(of.struts[i[0]]);
         add(of.struts[i[i + 1 < list_end]]);
       }
-      // Points behind the group get bits, too. They are true, since a strut that holds a point or is
-      // near it does so from any list.
+      // Points behind the group get bits, too. They are true, since a strut that holds a point or
+      // is near it does so from any list.
       are_inside |= bits_of(d, hn::Lt(least, set(-of.doubt))) << n;
       are_near |= bits_of(d, hn::Le(least, set(of.doubt))) << n;
     }
