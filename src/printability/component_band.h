@@ -158,7 +158,7 @@ void measure_known(ComponentBand& band, const ComponentMask& known);
 
 /// Runs of two bands that touch, one above the other.
 struct ComponentSeam {
-  std::vector<RunPair> pairs;  ///< the first `count` of them
+  std::vector<RunPair> pairs;  ///< the first `count`; a: of the higher band, b: of the lower
   size_t count = 0;
   std::vector<uint32_t> low_known, high_known;  ///< that touch known samples of the other band
 };

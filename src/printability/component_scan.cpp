@@ -103,7 +103,7 @@ class Scan {
       extend_word(row, known, rest, (nx_ - 1) / bits_per_word,
                   uint64_t{1} << (nx_ - 1) % bits_per_word);
     }
-    has_rest = extend(row, nullptr, known, rest);
+    has_rest = extend_row<corners>(row, nullptr, known, rest, words_);
   }
 
   static void extend_word(const uint64_t* row, uint64_t* known, uint64_t* rest, size_t w,
@@ -111,10 +111,6 @@ class Scan {
     if (!(rest[w] & seeds)) return;
     known[w] = filled_down(row[w], filled_up(row[w], known[w] | (rest[w] & seeds)));
     rest[w] = row[w] & ~known[w];
-  }
-
-  bool extend(const uint64_t* row, const uint64_t* beside, uint64_t* known, uint64_t* rest) const {
-    return extend_row<corners>(row, beside, known, rest, words_);
   }
 
   /// Finds most of what the known component has in this layer: row by row upwards and downwards.
@@ -140,8 +136,8 @@ class Scan {
     }
     for (uint64_t j = end - 1; j-- > begin;) {
       if (!band_.has_rest[j - begin]) continue;
-      band_.has_rest[j - begin] =
-          extend(rows_ + j * words_, known.row(j + 1), known.row(j), masks_.rest.row(j));
+      band_.has_rest[j - begin] = extend_row<corners>(rows_ + j * words_, known.row(j + 1),
+                                                      known.row(j), masks_.rest.row(j), words_);
     }
   }
 
@@ -434,7 +430,6 @@ void find_seam_of(const ComponentBand& low, const ComponentBand& high, const Com
   if (seam.pairs.empty()) seam.pairs.resize(words * bits_per_word + at_once);
   seam.count =
       list_pairs<corners>(of_high, high_begin, of_low, low_begin, words, seam.pairs.data());
-  for (size_t i = 0; i < seam.count; ++i) std::swap(seam.pairs[i].a, seam.pairs[i].b);
   seam.low_known.clear();
   seam.high_known.clear();
   if (!masks.has_known) return;

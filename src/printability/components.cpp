@@ -185,7 +185,7 @@ void Components::join(double height) {
 void Components::join_seam(const ComponentBand& low, const ComponentBand& high) {
   find_seam(low, high, masks_, rules_.joins_corners, seam_);
   for (const RunPair pair : std::span(seam_.pairs).first(seam_.count))
-    unite(low.base + low.runs.component(pair.a), high.base + high.runs.component(pair.b));
+    unite(high.base + high.runs.component(pair.a), low.base + low.runs.component(pair.b));
   for (const uint32_t run : seam_.low_known) unite(0, low.base + low.runs.component(run));
   for (const uint32_t run : seam_.high_known) unite(0, high.base + high.runs.component(run));
 }
