@@ -32,6 +32,15 @@ inline double cross(Vec2 a, Vec2 b) {
 inline double length(Vec2 a) {
   return std::sqrt(dot(a, a));
 }
+/// 0 for 0.
+inline Vec2 unit(Vec2 a) {
+  const double size = length(a);
+  return size > 0 ? a * (1 / size) : Vec2{};
+}
+/// Turned left by a right angle.
+inline Vec2 left_of(Vec2 a) {
+  return {-a.y, a.x};
+}
 
 struct Box2 {
   Vec2 min, max;

@@ -8,10 +8,6 @@ namespace msq {
 
 namespace {
 
-Vec2 left_of(Vec2 way) {
-  return Vec2{-way.y, way.x} * (1 / length(way));
-}
-
 /// Of a line that is cut for a test: how far its end is from the border, as a part of a segment and
 /// in units, whichever is less. Ends on the border are rounded.
 constexpr double short_part = 0.05, short_units = 32;
@@ -35,20 +31,20 @@ Vec2 corner_beside(Vec2 along, double aside, Vec2 other, double limit) {
   const double sine = along.x * other.y - along.y * other.x;
   const double reach = aside / sine;  // along the other line; not finite if both are parallel
   if (reach >= 0 && reach <= limit) return other * reach;
-  return left_of(along) * aside;
+  return unit(left_of(along)) * aside;
 }
 
 IntPath beside(const IntPath& line, double aside_from, double aside_to) {
   const CountedVector<IntPoint>& points = line.points;
   const size_t last = points.size() - 1;
   IntPath result = line;
-  result.points[0] = moved(points[0], left_of(between(points[0], points[1])) * aside_from);
+  result.points[0] = moved(points[0], unit(left_of(between(points[0], points[1]))) * aside_from);
   result.points[last] =
-      moved(points[last], left_of(between(points[last - 1], points[last])) * aside_to);
+      moved(points[last], unit(left_of(between(points[last - 1], points[last]))) * aside_to);
   if (aside_from == aside_to)
     for (size_t i = 1; i < last; ++i) {
-      const Vec2 sum =
-          left_of(between(points[i - 1], points[i])) + left_of(between(points[i], points[i + 1]));
+      const Vec2 sum = unit(left_of(between(points[i - 1], points[i]))) +
+                       unit(left_of(between(points[i], points[i + 1])));
       const double size = length(sum);
       if (size > 0.5) result.points[i] = moved(points[i], sum * (aside_from / size));
     }

@@ -111,7 +111,7 @@ Vec2 Trails::direction(End end) const {
   const size_t last = points.size() - 1;
   const IntPoint from = points[end % 2 ? last : 0], to = points[end % 2 ? last - 1 : 1];
   const Vec2 way{static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
-  return way * (1 / length(way));
+  return unit(way);
 }
 
 void Trails::find_points() {

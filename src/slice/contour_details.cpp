@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "slice/contour_line.h"
 #include "slice/nearest_unit.h"
@@ -14,51 +15,10 @@ namespace {
 
 /// Halvings of a piece.
 constexpr int max_depth = 4;
-/// Rings are looked into together until there are so many.
-constexpr size_t pieces_at_once = 4096;
-/// Curvatures of triples of points are even where those in the middle exceed the others by no more
-/// than this factor.
-constexpr double even_curvature = 1.6;
 /// Along a piece, and of the tolerance: where membership tells whether it is near enough to the
 /// boundary; see keep_bent().
 constexpr double places_beside[] = {0.25, 0.5, 0.75};
 constexpr double beside_piece = 0.75;
-/// Of the tolerance: arcs that are no higher than that are probably near enough to their chords, so
-/// their middles are not taken. Corners of regular polygons look like such arcs.
-constexpr double flat_arc = 0.5;
-
-Vec2 unit(Vec2 d) {
-  const double size = length(d);
-  return size > 0 ? d * (1 / size) : Vec2{};
-}
-Vec2 left_of(Vec2 d) {
-  return {-d.y, d.x};
-}
-
-/// Curvature of the circle through three points, positive where they turn left.
-double curvature(Vec2 a, Vec2 b, Vec2 c) {
-  const Vec2 ab = b - a, bc = c - b, ac = c - a;
-  const double sizes = dot(ab, ab) * dot(bc, bc) * dot(ac, ac);
-  return sizes > 0 ? 2 * cross(ab, bc) / std::sqrt(sizes) : 0;
-}
-
-/// How far an arc from a to b is from its chord, to the right, where the six points lie on a curve
-/// that bends about evenly; 0 where they do not. At a corner between a and b the curvature of
-/// triples that hold both is far above that of the outer ones; above that of one of them, where the
-/// other holds a second corner.
-double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q, double least) {
-  const double k1 = curvature(p, a, b), k2 = curvature(a, b, q);
-  const double bend = 0.125 * 0.5 * (k1 + k2) * dot(b - a, b - a);
-  if (!(k1 * k2 > 0 && std::abs(bend) > least)) return 0;
-  const double k0 = curvature(before_p, p, a);
-  if (!(k0 * k1 > 0)) return 0;
-  const double k3 = curvature(b, q, behind_q);
-  if (!(k3 * k1 > 0)) return 0;
-  const double inner = std::max(std::abs(k1), std::abs(k2));
-  if (!(inner <= even_curvature * std::min(std::abs(k0), std::abs(k3)))) return 0;
-  return bend;
-}
-
 /// Whether segments ab and cd have a point in common.
 bool do_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const auto side = [](Vec2 p, Vec2 q, Vec2 r) {
@@ -92,7 +52,8 @@ bool is_tangled(std::span<const Vec2> p) {
 
 void ContourDetails::find(ContourPoints& points) {
   held_ = Reservation(points.model().context().budget, 0, "");
-  find_suspects(points);
+  while (suspects_.add_some(memory_->pieces, points.job())) settle(points);
+  hold_memory();
   drop_tangles();
 }
 
@@ -103,20 +64,14 @@ void ContourDetails::hold_memory() {
   constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Corner) + sizeof(Search) +
                                 sizeof(Search*) + points_of_piece * ContourPoints::bytes_of_point;
   constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LineRun) + 2 * sizeof(Vec2);
-  held_.grow_to(
-      memory_->bends.size() * sizeof(uint64_t) + memory_->closed.size() * sizeof(RingPoints) +
-          memory_->pieces.size() * of_piece + memory_->details.size() * of_point + room_.bytes(),
-      "the details of contours");
+  held_.grow_to(suspects_.bytes() + memory_->pieces.size() * of_piece +
+                    memory_->details.size() * of_point + room_.bytes(),
+                "the details of contours");
 }
 
-void ContourDetails::add_piece(const Piece& piece) {
-  memory_->pieces.push_back(piece);
-  if (memory_->pieces.size() % pieces_at_once == 0) hold_memory();
-}
-
-/// Looks into the pieces that there are. Some rings at a time: their pieces stay in the core's
-/// cache.
+/// Looks into the pieces that there are.
 void ContourDetails::settle(ContourPoints& points) {
+  begin_run();
   hold_memory();
   take_arcs(points);
   while (!memory_->pieces.empty()) {
@@ -153,10 +108,6 @@ void ContourDetails::merge_runs() {
   runs.clear();
 }
 
-Vec2 ContourDetails::Piece::arc() const {
-  return middle() - left_of(unit(b - a)) * bend;
-}
-
 /// Where the lines through the crossings before and behind a piece meet.
 ContourDetails::Corner ContourDetails::corner_of(const Piece& piece) const {
   if (!piece.has_triangle) return {};
@@ -174,113 +125,6 @@ ContourDetails::Corner ContourDetails::corner_of(const Piece& piece) const {
   corner.beside = room_.beside(piece.id, axis, corner.at[axis] > cell.high[axis] - margin);
   corner.is_possible = corner.beside.place != 0 && room_.holds(piece.id, corner.beside, corner.at);
   return corner;
-}
-
-void ContourDetails::find_suspects(ContourPoints& points) {
-  const Job* const job = points.job();
-  const size_t count = rings_.count();
-  memory_->bends.resize((count + 63) / 64);
-  constexpr size_t at_once = size_t{1} << 18;
-  for (size_t first = 0; first < count; first += at_once) {
-    check_cancelled(job);
-    find_bends(rings_.x() + first, rings_.y() + first, std::min(at_once, count - first), limits_,
-               memory_->bends.data() + first / 64);
-  }
-  memory_->closed.clear();
-  for (const ContourRings::Ring& ring : rings_.rings())
-    if (ring.is_closed) memory_->closed.push_back({ring.first, ring.end});
-  find_bends_at_ends(rings_.x(), rings_.y(), memory_->closed, limits_, memory_->bends.data());
-  CancelPoll poll(job);
-  begin_run();
-  for (const ContourRings::Ring& ring : rings_.rings()) {
-    poll();
-    if (ring.is_closed)
-      look_along(ring, poll);
-    else
-      for (uint32_t id = ring.first; id < ring.end; ++id) {
-        poll();
-        suspect(ring, id);
-      }
-    if (memory_->pieces.size() < pieces_at_once) continue;
-    settle(points);
-    begin_run();
-  }
-  settle(points);
-}
-
-/// suspect() for all crossings of a closed ring, except for those that `bends` excludes: most
-/// pieces are short or nearly straight.
-void ContourDetails::look_along(const ContourRings::Ring& ring, CancelPoll& poll) {
-  for (uint32_t id = ring.first; id < ring.end;) {
-    poll();
-    const uint64_t rest = memory_->bends[id / 64] >> (id % 64);
-    id = rest ? id + static_cast<uint32_t>(std::countr_zero(rest)) : (id / 64 + 1) * 64;
-    if (rest && id < ring.end) suspect(ring, id++);
-  }
-}
-
-/// The piece that begins at crossing `id`.
-void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
-  const auto behind = [&](uint32_t i) { return i + 1 < ring.end ? i + 1 : ring.first; };
-  const auto before = [&](uint32_t i) { return i > ring.first ? i - 1 : ring.end - 1; };
-  const double close2 = limits_.close * limits_.close;
-  const uint32_t next = behind(id);
-  if (rings_.is_beyond(id) || rings_.is_beyond(next) || rings_.is_before_saddle(id)) return;
-  const Vec2 a = rings_.at(id), b = rings_.at(next), ab = b - a;
-  if (dot(ab, ab) <= tolerance_ * tolerance_) return;
-  uint32_t p = before(id), q = behind(next);
-  const auto make_piece = [&] { return Piece{.id = id, .next = next, .a = a, .b = b}; };
-  if (rings_.is_beyond(p) || rings_.is_beyond(q)) {
-    // The direction of the boundary at the edge of a window is not known.
-    add_piece(make_piece());
-    return;
-  }
-  // A crossing that is very near tells little about the direction.
-  Vec2 d1 = a - rings_.at(p), d2 = rings_.at(q) - b;
-  if (dot(d1, d1) < close2 && !rings_.is_beyond(before(p))) {
-    p = before(p);
-    d1 = a - rings_.at(p);
-  }
-  if (dot(d2, d2) < close2 && !rings_.is_beyond(behind(q))) {
-    q = behind(q);
-    d2 = rings_.at(q) - b;
-  }
-  const double turn1 = cross(d1, ab), turn2 = cross(ab, d2);
-  const double size2 = dot(ab, ab), limit2 = tolerance_ * tolerance_;
-  const Vec2 d0 = rings_.at(p) - rings_.at(before(p)), d3 = rings_.at(behind(q)) - rings_.at(q);
-  const double turn0 = cross(d0, d1), turn3 = cross(d2, d3);
-  const double corner2 = limits_.corner * limits_.corner;
-  const bool is_by_corner =
-      turn0 * turn0 > corner2 * dot(d0, d0) || turn3 * turn3 > corner2 * dot(d3, d3);
-  if (turn1 * turn2 <= 0) {  // an inflection: of an arc, less than a quarter of this
-    if (is_by_corner || turn1 * turn1 > 4 * limit2 * dot(d1, d1) ||
-        turn2 * turn2 > 4 * limit2 * dot(d2, d2))
-      add_piece(make_piece());
-    return;
-  }
-  const double turn = cross(d1, d2);
-  // Where the boundary turns the other way before or behind the piece, by more than the tolerance
-  // from the line through two points to the next, it may leave the triangle.
-  const auto turns_back = [&](double other, Vec2 d) {
-    return other * turn1 < 0 && other * other > limit2 * dot(d, d);
-  };
-  const bool turns_one_way = !is_by_corner && !turns_back(turn0, d0) && !turns_back(turn3, d3);
-  Piece piece = make_piece();
-  piece.before = p;
-  piece.behind = q;
-  piece.has_triangle = turn * turn1 > 0;
-  if (turns_one_way) {
-    // The height of the triangle is turn1 * turn2 / (turn * size).
-    const double area = turn1 * turn2;
-    if (piece.has_triangle && area * area <= limit2 * turn * turn * size2) return;
-    piece.turn = turn1 > 0 ? 1 : -1;
-  }
-  piece.bend = bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)),
-                       flat_arc * tolerance_);
-  if (piece.bend != 0 &&
-      !(std::abs(piece.bend) <= 4 * tolerance_ && room_.holds(id, {}, piece.arc())))
-    piece.bend = 0;
-  add_piece(piece);
 }
 
 /// Takes the middles of arcs where membership confirms the two lines to them: beside the middle and
@@ -323,6 +167,35 @@ void ContourDetails::take_arcs(ContourPoints& points) {
 /// at heights of which the largest is at least 0.75 h (least for f = 1/3). So three quarters of the
 /// tolerance leave no such corner out.
 void ContourDetails::keep_bent(ContourPoints& points) {
+  constexpr size_t places = std::size(places_beside);
+  find_sides(points);
+  std::vector<Piece>& pieces = memory_->pieces;
+  points.clear();
+  Vec2* to = points.add_some(places * pieces.size());
+  for (const Piece& piece : pieces) {
+    const Vec2 along = piece.b - piece.a;
+    const double size = piece.is_inside ? -beside_piece : beside_piece;
+    const Vec2 aside = left_of(unit(along)) * (size * tolerance_);
+    for (const double place : places_beside) *to++ = piece.a + along * place + aside;
+  }
+  const std::vector<uint8_t>& inside = points.find_inside();
+  size_t next = 0, kept = 0;
+  for (const Piece& piece : pieces) {
+    bool is_bent = false;
+    for (size_t k = 0; k < places; ++k, ++next)
+      // Along the edges of a window, what is beyond does not count.
+      is_bent |= (inside[next] != 0) == piece.is_inside && is_in_window(points.at(next));
+    if (!is_bent) continue;
+    if (piece.depth < max_depth)
+      pieces[kept++] = piece;
+    else
+      ++unresolved_;
+  }
+  pieces.resize(kept);
+}
+
+/// On which side of the boundary the middles of pieces are, where that is not known.
+void ContourDetails::find_sides(ContourPoints& points) {
   std::vector<Piece>& pieces = memory_->pieces;
   points.clear();
   for (const Piece& piece : pieces)
@@ -330,30 +203,7 @@ void ContourDetails::keep_bent(ContourPoints& points) {
   const std::vector<uint8_t>& middles = points.find_inside();
   size_t n = 0;
   for (Piece& piece : pieces)
-    piece.is_inside = piece.turn == 0 ? middles[n++] != 0 : piece.turn > 0;
-  points.clear();
-  for (const Piece& piece : pieces) {
-    const Vec2 along = piece.b - piece.a;
-    const double size = piece.is_inside ? -beside_piece : beside_piece;
-    const Vec2 aside = left_of(unit(along)) * (size * tolerance_);
-    for (const double place : places_beside) points.add(piece.a + along * place + aside);
-  }
-  const std::vector<uint8_t>& inside = points.find_inside();
-  size_t next = 0;
-  for (Piece& piece : pieces)
-    for (size_t k = 0; k < std::size(places_beside); ++k, ++next)
-      // Along the edges of a window, what is beyond does not count.
-      if ((inside[next] != 0) == piece.is_inside && !piece.is_bent)
-        piece.is_bent = is_in_window(points.at(next));
-  size_t kept = 0;
-  for (const Piece& piece : pieces) {
-    if (!piece.is_bent) continue;
-    if (piece.depth < max_depth)
-      pieces[kept++] = piece;
-    else
-      ++unresolved_;
-  }
-  pieces.resize(kept);
+    if (piece.turn == 0) piece.is_inside = middles[n++] != 0;
 }
 
 bool ContourDetails::is_in_window(Vec2 p) const {

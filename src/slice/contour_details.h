@@ -2,12 +2,11 @@
 // What the boundary does within a cell, where the line between its two crossings is too far from
 // it: corners, and tight bends.
 //
-// Lines through the crossings before and behind a piece meet at a point X. The triangle of X and
-// the piece's crossings holds the boundary where it turns one way, so only pieces whose triangle is
-// higher than the tolerance are looked into. Where the curvature through the crossings around is
-// about even, and an arc with it would be far from its chord, the middle of the arc is taken if
-// membership on both sides confirms it. Elsewhere membership beside the middle of the piece and its
-// quarters tells whether it is near enough. If not, X is a corner where membership around X and
+// ContourSuspects tells which pieces may be too far. Where the curvature through the crossings
+// around is about even, and an arc with it would be far from its chord, the middle of the arc is
+// taken if membership on both sides confirms it. Elsewhere membership beside the middle of the
+// piece and its quarters tells whether it is near enough. If not, the point X where the lines
+// through the crossings before and behind the piece meet is a corner where membership around X and
 // around the middles of both sides says so. Otherwise the point on the boundary beside the piece's
 // middle is found by bisection, and both halves are looked into likewise.
 //
@@ -21,10 +20,10 @@
 
 #include "base/borrowed.h"
 #include "base/memory.h"
-#include "slice/contour_bends.h"
 #include "slice/contour_points.h"
 #include "slice/contour_rings.h"
 #include "slice/contour_room.h"
+#include "slice/contour_suspects.h"
 
 namespace msq {
 
@@ -45,8 +44,8 @@ class ContourDetails {
       : rings_(rings),
         tolerance_(tolerance),
         units_(units),
-        limits_(limits_of(rings, tolerance)),
-        room_(rings, taken) {
+        room_(rings, taken),
+        suspects_(rings, tolerance, room_) {
     memory_->pieces.clear();
     memory_->details.clear();
     memory_->runs.clear();
@@ -63,19 +62,7 @@ class ContourDetails {
  private:
   using Cell = ContourRings::Cell;
   using Beside = ContourRoom::Beside;
-  struct Piece {
-    uint32_t id, next;                // crossings
-    uint32_t before = 0, behind = 0;  // crossings that tell about the direction at its ends
-    int depth = 0;
-    int turn = 0;  // where known: 1: the boundary turns left between its ends, -1: right
-    bool has_triangle = false, is_inside = false, is_bent = false;
-    Beside beside = {};
-    Vec2 a, b;
-    double begin = 0, end = 1;  // orders of a and b
-    double bend = 0;  // of an arc: how far its middle is from the chord, to the right; or 0
-    Vec2 middle() const { return (a + b) * 0.5; }
-    Vec2 arc() const;
-  };
+  using Piece = ContourPiece;
   struct Corner {
     bool is_possible = false;
     Vec2 at = {};
@@ -89,18 +76,10 @@ class ContourDetails {
     bool is_high;
   };
 
-  /// At fine tolerances, hidden corners are worth more time.
-  static BendLimits limits_of(const ContourRings& rings, double tolerance) {
-    const bool is_fine = rings.gaps().parts() > 1;
-    return {tolerance, rings.grid().pitch() / 16, (is_fine ? 2 : 4) * tolerance};
-  }
-  void find_suspects(ContourPoints& points);
   void settle(ContourPoints& points);
-  void look_along(const ContourRings::Ring& ring, CancelPoll& poll);
-  void suspect(const ContourRings::Ring& ring, uint32_t id);
-  void add_piece(const Piece& piece);
   void hold_memory();
   void take_arcs(ContourPoints& points);
+  void find_sides(ContourPoints& points);
   void keep_bent(ContourPoints& points);
   void take_corners(ContourPoints& points);
   std::vector<Search> find_searches(ContourPoints& points);
@@ -118,19 +97,16 @@ class ContourDetails {
 
   const ContourRings& rings_;
   const double tolerance_, units_;
-  const BendLimits limits_;
   ContourRoom room_;
+  ContourSuspects suspects_;
   // Kept between calls: fresh memory of this size takes a while to get.
   struct Memory {
-    std::vector<uint64_t> bends;  // see find_bends()
-    std::vector<RingPoints> closed;
     std::vector<Piece> pieces, halves;
     std::vector<Corner> corners;  // of pieces
     std::vector<DetailPoint> details;
     std::vector<size_t> runs;  // where runs of details begin
     size_t bytes() const {
-      return bends.capacity() * sizeof(uint64_t) + closed.capacity() * sizeof(RingPoints) +
-             (pieces.capacity() + halves.capacity()) * sizeof(Piece) +
+      return (pieces.capacity() + halves.capacity()) * sizeof(Piece) +
              corners.capacity() * sizeof(Corner) + details.capacity() * sizeof(DetailPoint);
     }
   };

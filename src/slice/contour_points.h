@@ -35,6 +35,11 @@ class ContourPoints {
 
   void clear() { memory_->points.clear(); }
   void add(Vec2 p) { memory_->points.push_back(p); }
+  /// So many points, to be set.
+  Vec2* add_some(size_t count) {
+    memory_->points.resize(memory_->points.size() + count);
+    return memory_->points.data() + (memory_->points.size() - count);
+  }
   size_t count() const { return memory_->points.size(); }
   Vec2 at(size_t n) const { return memory_->points[n]; }
   /// Of the points added since clear().
