@@ -14,7 +14,7 @@ namespace msq {
 namespace {
 
 /// Halvings of a piece.
-constexpr int max_depth = 4;
+constexpr int max_depth = 10;
 /// Along a piece, and of the tolerance: where membership tells whether it is near enough to the
 /// boundary; see keep_bent().
 constexpr double places_beside[] = {0.25, 0.5, 0.75};
@@ -108,14 +108,21 @@ void ContourDetails::merge_runs() {
   runs.clear();
 }
 
-/// Where the lines through the crossings before and behind a piece meet.
+/// Whether the lines through both ends of a piece and the points before and behind meet beside it.
+bool ContourDetails::do_lines_meet(const Piece& piece) {
+  const Vec2 d1 = piece.a - piece.before, ab = piece.b - piece.a, d2 = piece.behind - piece.b;
+  const double turn1 = cross(d1, ab);
+  return turn1 * cross(ab, d2) > 0 && turn1 * cross(d1, d2) > 0;
+}
+
+/// Where these lines meet.
 ContourDetails::Corner ContourDetails::corner_of(const Piece& piece) const {
   if (!piece.has_triangle) return {};
-  const Vec2 d1 = piece.a - rings_.at(piece.before), d2 = rings_.at(piece.behind) - piece.b;
+  const Vec2 d1 = piece.a - piece.before, d2 = piece.behind - piece.b;
   Corner corner;
   corner.at = piece.a + d1 * (cross(piece.b - piece.a, d2) / cross(d1, d2));
-  corner.is_possible = room_.holds(piece.id, {}, corner.at);
-  if (corner.is_possible) return corner;
+  corner.is_possible = room_.holds(piece.id, piece.beside, corner.at);
+  if (corner.is_possible || piece.beside.place != 0) return corner;
   const Cell cell = rings_.cell_of(piece.id);
   const double margin = rings_.margin();
   const auto is_beyond = [&](int axis) {
@@ -358,25 +365,28 @@ void ContourDetails::split(ContourPoints& points) {
     }
     const double order = 0.5 * (piece.begin + piece.end);
     memory_->details.push_back({piece.id, piece.next, order, at});
-    // A half as short as that is near enough.
-    if (length(at - piece.a) > tolerance_)
-      halves.push_back({.id = piece.id,
-                        .next = piece.next,
-                        .depth = piece.depth + 1,
-                        .beside = s.beside,
-                        .a = piece.a,
-                        .b = at,
-                        .begin = piece.begin,
-                        .end = order});
-    if (length(piece.b - at) > tolerance_)
-      halves.push_back({.id = piece.id,
-                        .next = piece.next,
-                        .depth = piece.depth + 1,
-                        .beside = s.beside,
-                        .a = at,
-                        .b = piece.b,
-                        .begin = order,
-                        .end = piece.end});
+    const auto add_half = [&](Piece half) {
+      // One as short as that is near enough.
+      if (length(half.b - half.a) <= tolerance_) return;
+      half.id = piece.id;
+      half.next = piece.next;
+      half.depth = piece.depth + 1;
+      half.beside = s.beside;
+      half.has_triangle = do_lines_meet(half);
+      halves.push_back(half);
+    };
+    add_half({.a = piece.a,
+              .b = at,
+              .before = piece.before,
+              .behind = piece.b,
+              .begin = piece.begin,
+              .end = order});
+    add_half({.a = at,
+              .b = piece.b,
+              .before = piece.a,
+              .behind = piece.behind,
+              .begin = order,
+              .end = piece.end});
   }
   memory_->pieces.swap(halves);
 }

@@ -6,9 +6,11 @@
 // around is about even, and an arc with it would be far from its chord, the middle of the arc is
 // taken if membership on both sides confirms it. Elsewhere membership beside the middle of the
 // piece and its quarters tells whether it is near enough. If not, the point X where the lines
-// through the crossings before and behind the piece meet is a corner where membership around X and
+// through the points before and behind the piece meet is a corner where membership around X and
 // around the middles of both sides says so. Otherwise the point on the boundary beside the piece's
-// middle is found by bisection, and both halves are looked into likewise.
+// middle is found by bisection, and both halves are looked into likewise. The chord of one half
+// then tells about the direction at the end of the other one: of several corners in a piece, each
+// is found once there is only one in a half.
 //
 // All points found lie where ContourRoom says, so pieces of different cells never meet.
 #pragma once
@@ -38,14 +40,14 @@ struct DetailPoint {
 class ContourDetails {
  public:
   /// `units`: coordinates will be multiplied by it and rounded; 0: they will not be rounded.
-  /// `taken`: see ContourRoom.
-  ContourDetails(const ContourRings& rings, double tolerance, double units,
+  /// `has_struts`: they give the crossings. `taken`: see ContourRoom.
+  ContourDetails(const ContourRings& rings, double tolerance, double units, bool has_struts,
                  std::unordered_set<uint64_t>& taken)
       : rings_(rings),
         tolerance_(tolerance),
         units_(units),
         room_(rings, taken),
-        suspects_(rings, tolerance, room_) {
+        suspects_(rings, tolerance, has_struts, room_) {
     memory_->pieces.clear();
     memory_->details.clear();
     memory_->runs.clear();
@@ -88,6 +90,7 @@ class ContourDetails {
   void begin_run();
   void merge_runs();
   void drop_tangles();
+  static bool do_lines_meet(const Piece& piece);
   Corner corner_of(const Piece& piece) const;
   Search search_of(size_t number, const Beside& beside) const;
   void keep_open(std::vector<Search>& searches, std::vector<Search>& closed,

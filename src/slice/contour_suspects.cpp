@@ -21,11 +21,12 @@ constexpr double flat_arc = 0.5;
 /// Of the tolerance.
 constexpr double highest_arc = 4;
 
-BendLimits limits_of(const ContourRings& rings, double tolerance) {
-  // At fine tolerances, hidden corners are worth more time.
+BendLimits limits_of(const ContourRings& rings, double tolerance, bool has_struts) {
+  // Corners may hide others behind them, so pieces beside corners are looked into. Struts are
+  // round: corners are few, and looking behind every bend would take a fifth of the layer's time.
   const bool is_fine = rings.gaps().parts() > 1;
-  return {tolerance, rings.grid().pitch() / 16, (is_fine ? 2 : 4) * tolerance,
-          flat_arc * tolerance};
+  const double corner = has_struts ? (is_fine ? 2 : 4) : (is_fine ? 0 : 0.125);
+  return {tolerance, rings.grid().pitch() / 16, corner * tolerance, flat_arc * tolerance};
 }
 
 /// Curvature of the circle through three points, positive where they turn left.
@@ -58,9 +59,12 @@ Vec2 ContourPiece::arc() const {
   return middle() - left_of(unit(b - a)) * bend;
 }
 
-ContourSuspects::ContourSuspects(const ContourRings& rings, double tolerance,
+ContourSuspects::ContourSuspects(const ContourRings& rings, double tolerance, bool has_struts,
                                  const ContourRoom& room)
-    : rings_(rings), tolerance_(tolerance), limits_(limits_of(rings, tolerance)), room_(room) {}
+    : rings_(rings),
+      tolerance_(tolerance),
+      limits_(limits_of(rings, tolerance, has_struts)),
+      room_(room) {}
 
 void ContourSuspects::find_all_bends(const Job* job) {
   const size_t count = rings_.count();
@@ -126,7 +130,7 @@ void ContourSuspects::suspect(const ContourRings::Ring& ring, uint32_t id) {
       memory_->block.y[n][count_] = points[n].y;
     }
   }
-  memory_->suspects[count_++] = {id, next, p, q, has_direction};
+  memory_->suspects[count_++] = {id, next, has_direction};
 }
 
 /// Adds the pieces of the block that may bend.
@@ -137,7 +141,8 @@ void ContourSuspects::add_block(std::vector<ContourPiece>& pieces) {
   for (size_t i = 0; i < count; ++i) {
     const Suspect& s = memory_->suspects[i];
     if (!s.has_direction) {
-      pieces.push_back({.id = s.id, .next = s.next, .a = rings_.at(s.id), .b = rings_.at(s.next)});
+      const Vec2 a = rings_.at(s.id), b = rings_.at(s.next);
+      pieces.push_back({.id = s.id, .next = s.next, .a = a, .b = b, .before = a, .behind = b});
       continue;
     }
     const PieceBlock::Bits& bits = block.bits[i / 64];
@@ -147,13 +152,13 @@ void ContourSuspects::add_block(std::vector<ContourPiece>& pieces) {
     ContourPiece& piece = pieces.emplace_back(
         ContourPiece{.id = s.id,
                      .next = s.next,
-                     .before = s.before,
-                     .behind = s.behind,
                      .turn = int{bit(bits.turns_left)} - int{bit(bits.turns_right)},
                      .has_triangle = bit(bits.has_triangle),
                      .is_inside = bit(bits.turns_left),
                      .a = at(2),
-                     .b = at(3)});
+                     .b = at(3),
+                     .before = at(1),
+                     .behind = at(4)});
     if (!bit(bits.may_be_arc)) continue;
     piece.bend = bend_of(at(0), at(1), at(2), at(3), at(4), at(5), limits_.arc);
     if (!(std::abs(piece.bend) <= highest_arc * tolerance_ && room_.holds(s.id, {}, piece.arc())))

@@ -21,14 +21,14 @@ namespace msq {
 
 /// A piece, or a part of one.
 struct ContourPiece {
-  uint32_t id, next;                // crossings
-  uint32_t before = 0, behind = 0;  // crossings that tell about the direction at its ends
+  uint32_t id = 0, next = 0;  // crossings
   int depth = 0;
   int turn = 0;  // where known: 1: the boundary turns left between its ends, -1: right
   bool has_triangle = false;
   bool is_inside = false;  // its middle; where `turn` is not known it is found later
   ContourRoom::Beside beside = {};
-  Vec2 a, b;
+  Vec2 a, b;                  // its ends
+  Vec2 before, behind;        // points that tell about the direction there; the ends if none does
   double begin = 0, end = 1;  // orders of a and b
   double bend = 0;            // of an arc: how far its middle is from the chord, to the right; or 0
 
@@ -38,7 +38,9 @@ struct ContourPiece {
 
 class ContourSuspects {
  public:
-  ContourSuspects(const ContourRings& rings, double tolerance, const ContourRoom& room);
+  /// `has_struts`: they give the crossings.
+  ContourSuspects(const ContourRings& rings, double tolerance, bool has_struts,
+                  const ContourRoom& room);
 
   /// Adds the next pieces, in the order of crossings: so many that they stay in the core's cache.
   /// False if none is left.
@@ -47,7 +49,7 @@ class ContourSuspects {
 
  private:
   struct Suspect {
-    uint32_t id, next, before, behind;  // as of a piece
+    uint32_t id, next;
     bool has_direction;
   };
 

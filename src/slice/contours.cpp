@@ -310,7 +310,7 @@ void find_contours(const Model& model, const Scales& resolved, const ContourPlan
   uint64_t unresolved = section.unresolved() - gaps.saddles() + gaps.unresolved();
   rings.follow_all(section, points, [&] {
     ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0,
-                           taken);
+                           struts.has_value(), taken);
     details.find(points);
     builder.build(details, job);
     unresolved += details.unresolved();
