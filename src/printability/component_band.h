@@ -127,6 +127,8 @@ struct ComponentBand {
   std::vector<RunPair> pairs;
   std::vector<uint32_t> fresh;
   std::vector<uint64_t> overlaps;
+  /// Where runs start in the strip, the one before and the one below; where those of the strip end.
+  std::vector<uint64_t> starts[3], ends;
   /// By number - 1: which of the layer each is part of.
   std::vector<uint32_t> global, global_below;
   /// By number - 1 below: the number in this layer; 0: it has joined the known one; or none.
@@ -161,6 +163,7 @@ struct ComponentSeam {
   std::vector<RunPair> pairs;  ///< the first `count`; a: of the higher band, b: of the lower
   size_t count = 0;
   std::vector<uint32_t> low_known, high_known;  ///< that touch known samples of the other band
+  std::vector<uint64_t> low_starts, high_starts, ends;
 };
 void find_seam(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,
                bool joins_corners, ComponentSeam& seam);

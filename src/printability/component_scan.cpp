@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/compress-inl.h"
 #include "base/job.h"
 #include "base/simd.h"
 #include "printability/bit_row.h"
@@ -19,18 +20,23 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Gives the runs that have none the next nodes. Returns how many, and lists these runs. All is
-/// written in any case: the processor does not foresee which runs have none.
-HWY_NOINLINE uint32_t take_nodes(uint32_t* HWY_RESTRICT nodes, size_t count, uint32_t next,
+constexpr size_t max_simd_words = 2 * max_simd_doubles;  // of 32 bits
+
+/// Lists the runs that have no node. There is room for a vector more, which is read and written.
+HWY_NOINLINE uint32_t list_fresh(const uint32_t* HWY_RESTRICT nodes, size_t count,
                                  uint32_t* HWY_RESTRICT fresh) {
-  uint32_t made = 0;
-  for (size_t r = 0; r < count; ++r) {
-    fresh[made] = static_cast<uint32_t>(r);
-    const uint32_t node = nodes[r], is_fresh = node == ComponentBand::none, mask = 0u - is_fresh;
-    nodes[r] = (node & ~mask) | ((next + made) & mask);
-    made += is_fresh;
+  const hn::ScalableTag<uint32_t> d;
+  const size_t lanes = hn::Lanes(d);
+  const auto none = hn::Set(d, ComponentBand::none);
+  size_t found = 0;
+  for (size_t r = 0; r < count; r += lanes) {
+    const auto is_fresh =
+        hn::And(hn::Eq(hn::LoadU(d, nodes + r), none), hn::FirstN(d, std::min(lanes, count - r)));
+    const Compression<decltype(d)> chosen(is_fresh);
+    hn::StoreU(chosen(hn::Iota(d, static_cast<uint32_t>(r))), d, fresh + found);
+    found += hn::CountTrue(d, is_fresh);
   }
-  return made;
+  return static_cast<uint32_t>(found);
 }
 
 /// Adds runs of a strip, whose first row is `row`, to the parts of components. `counts`: see
@@ -154,30 +160,35 @@ class Scan {
     band_.parts[0] = {};
     CancelPoll poll(current_job());
     uint32_t count = 0;
+    Strip last{};  // of those that have runs
     for (uint64_t n = 0; n < runs.strips(); ++n) {
       poll();
       runs.begin[n] = count;
       const uint64_t first = band_.begin + rows_of_strip * n;
       const uint64_t end = std::min(first + rows_of_strip, band_.end);
       const bool has_below = below.begin[n] < below.begin[n + 1];
+      const Strip strip_below = has_below ? strip_here(masks_.rest_below, below, n, 2) : Strip{};
       bool has_rest = !masks_.has_known;
       for (uint64_t j = first; j < end; ++j) {
         if (!masks_.has_known) {
           std::copy_n(rows_ + j * words_, words_, masks_.rest.row(j));
           continue;
         }
-        if (has_below) join_known_above(j, n);
+        if (has_below) join_known_above(strip_below, j);
         has_rest = has_rest || band_.has_rest[j - band_.begin];
       }
       if (!has_rest) continue;
-      const Strip strip = strip_of(band_, masks_, masks_.rest, n);
-      count = list(strip, count);
-      if (runs.begin[n] == count) continue;
-      label_strip(strip, n, count, static_cast<uint32_t>(first));
+      const Strip strip = strip_here(masks_.rest, runs, n, n % 2);
+      count = list(strip);
+      if (strip.begin == count) continue;
+      const bool has_before = n > 0 && runs.begin[n - 1] < strip.begin;
+      label_strip(strip, has_before ? &last : nullptr, has_below ? &strip_below : nullptr, n, count,
+                  static_cast<uint32_t>(first));
+      last = strip;
       if (!masks_.has_known) continue;
       for (uint64_t j = first; j < end; ++j) {
-        if (j > band_.begin) join_known_beside(strip, n, j, j - 1);
-        if (j + 1 < band_.end) join_known_beside(strip, n, j, j + 1);
+        if (j > band_.begin) join_known_beside(strip, j, j - 1);
+        if (j + 1 < band_.end) join_known_beside(strip, j, j + 1);
       }
     }
     runs.begin.back() = count;
@@ -192,19 +203,24 @@ class Scan {
     band_.parts.resize(size);
   }
 
-  /// Adds the runs of a strip to the first `before` runs. Returns how many there are then.
-  uint32_t list(const Strip& strip, uint32_t before) {
+  Strip strip_here(const ComponentMask& rows, const ComponentRuns& runs, uint64_t n, size_t at) {
+    return strip_of<corners>(band_, masks_, rows, runs, n, band_.starts[at], band_.ends);
+  }
+
+  /// Adds the runs of a strip, of which the ends have been found last, to those before it. Returns
+  /// how many there are then.
+  uint32_t list(const Strip& strip) {
     ComponentRuns& runs = band_.runs;
+    const uint32_t before = strip.begin;
     uint32_t* const counts = band_.counts.data();
     // No sample is in two runs.
     const size_t wanted = 2 * (before + words_ * bits_per_word + at_once);
     if (runs.edges.size() < wanted) runs.edges.resize(std::max(wanted, runs.edges.size() * 3 / 2));
-    StripReader<corners> of{strip, before};
     size_t started = before, ended = before;
     uint32_t all = 0, of_high = 0;  // samples before the word
     for (size_t w = 0; w < words_; ++w) {
-      of.read(w);
-      uint64_t starts = of.starts, ends = of.ends();
+      const uint64_t low = strip.low[w], high = strip.high[w];
+      uint64_t starts = strip.starts[w], ends = band_.ends[w];
       const auto first = static_cast<uint32_t>(w * bits_per_word);
       uint32_t* to = runs.edges.data() + 2 * started;
       const uint32_t more = count_ones(starts), done = count_ones(ends);
@@ -220,15 +236,14 @@ class Scan {
         for (uint32_t k = i; k < i + at_once; ++k) {
           const uint64_t up_to = ends ^ (ends - 1), inside = up_to >> 1;
           to[2 * k + 1] = first + count_ones(inside);
-          const uint32_t high = count_ones(of.high & inside);
-          to_counts[2 * k] = all + high + count_ones(of.low & inside);
-          to_counts[2 * k + 1] = of_high + high;
+          const uint32_t high_inside = count_ones(high & inside);
+          to_counts[2 * k] = all + high_inside + count_ones(low & inside);
+          to_counts[2 * k + 1] = of_high + high_inside;
           ends &= ends - 1;
         }
       ended += done;
-      const uint32_t high = count_ones(of.high);
-      all += high + count_ones(of.low);
-      of_high += high;
+      all += count_ones(low) + count_ones(high);
+      of_high += count_ones(high);
     }
     if (ended < started) {
       runs.edges[2 * ended + 1] = static_cast<uint32_t>(words_ * bits_per_word);
@@ -238,45 +253,44 @@ class Scan {
     if (started >= UINT32_MAX)
       fail(Status::limit, "layer %llu has %zu runs of samples to label; the limit is 2^32 - 1",
            static_cast<unsigned long long>(layer_), started);
-    if (runs.node.size() < started) runs.node.resize(std::max(started, runs.node.size() * 3 / 2));
+    const size_t nodes = started + max_simd_words;
+    if (runs.node.size() < nodes) runs.node.resize(std::max(nodes, runs.node.size() * 3 / 2));
     reserve_nodes(started - before);
     return static_cast<uint32_t>(started);
   }
 
   /// Lists pairs of runs of a strip and of the strip below it that overlap. Those are left out that
   /// share samples with such a pair of the strip before: its runs belong to the same components.
-  size_t list_new_pairs(const Strip& a, uint32_t a_begin, const Strip& b, uint32_t b_begin,
-                        uint64_t n) {
+  size_t list_new_pairs(const Strip& a, const Strip& b, uint64_t n) {
     if (overlaps_strip_ + 1 != n) std::fill_n(overlaps_.begin(), words_, uint64_t{0});
     overlaps_strip_ = n;
     RunPair* to = pairs_.data();
-    StripReader<corners> of_a{a, a_begin}, of_b{b, b_begin};
-    of_a.read(0);
-    of_b.read(0);
+    RunReader of_a(a), of_b(b);
     uint64_t carry = 0;
+    uint64_t low = a.low[0] & b.low[0], high = a.high[0] & b.high[0];
+    uint64_t follow = (low | high) & ~(a.starts[0] | b.starts[0]);
     for (size_t w = 0; w < words_; ++w) {
-      const StripReader<corners> here_a = of_a, here_b = of_b;
-      const auto both_of = [&] { return (of_a.low & of_b.low) | (of_a.high & of_b.high); };
-      const auto following = [&] { return both_of() & ~(of_a.starts | of_b.starts); };
-      const uint64_t both = both_of(), follow = following();
+      of_a.read(w);
+      of_b.read(w);
+      const uint64_t both = low | high, here = follow;
       // From samples that they share to the last sample of the overlap.
-      const uint64_t seeds = (of_a.low & of_b.low & overlaps_[w]) | (carry & follow);
-      const uint64_t shared = filled_up(follow, (seeds & follow) | (seeds << 1 & follow)) | seeds;
-      overlaps_[w] = of_a.high & of_b.high;
+      const uint64_t seeds = (low & overlaps_[w]) | (carry & here);
+      const uint64_t shared = filled_up(here, (seeds & here) | (seeds << 1 & here)) | seeds;
+      overlaps_[w] = high;
       carry = shared >> (bits_per_word - 1);
-      uint64_t next = 0;
+      follow = 0;
       if (w + 1 < words_) {
-        of_a.read(w + 1);
-        of_b.read(w + 1);
-        next = following();
+        low = a.low[w + 1] & b.low[w + 1];
+        high = a.high[w + 1] & b.high[w + 1];
+        follow = (low | high) & ~(a.starts[w + 1] | b.starts[w + 1]);
       }
-      uint64_t ends = both & ~(follow >> 1 | next << (bits_per_word - 1)) & ~shared;
+      uint64_t ends = both & ~(here >> 1 | follow << (bits_per_word - 1)) & ~shared;
       // One is written in any case.
       const uint32_t found = count_ones(ends);
       uint32_t i = 0;
       do {
         const uint64_t up_to = ends ^ (ends - 1);
-        to[i] = {here_a.run_at(up_to), here_b.run_at(up_to)};
+        to[i] = {of_a.run_at(up_to), of_b.run_at(up_to)};
         ends &= ends - 1;
       } while (++i < found);
       to += found;
@@ -293,19 +307,19 @@ class Scan {
     return low;
   }
 
-  /// Labels the runs of strip n of the band, up to the last that are listed. `row`: its first.
-  void label_strip(const Strip& strip, uint64_t n, uint32_t end, uint32_t row) {
+  /// Labels the runs of strip n of the band, up to the last that are listed. `before`, `below`: the
+  /// strips there, if they have runs. `row`: the strip's first one.
+  void label_strip(const Strip& strip, const Strip* before, const Strip* below, uint64_t n,
+                   uint32_t end, uint32_t row) {
     constexpr uint32_t none = ComponentBand::none;
     const uint32_t* const edges = band_.runs.edges.data();
     uint32_t* const nodes = band_.runs.node.data();
     ComponentPart* const parts = band_.parts.data();
     uint32_t* const parents = band_.parents.data();
-    const uint32_t begin = band_.runs.begin[n];
+    const uint32_t begin = strip.begin;
     std::fill(nodes + begin, nodes + end, none);
-    const uint32_t before = n > 0 ? band_.runs.begin[n - 1] : begin;
-    if (before < begin) {
-      const size_t count = list_pairs<corners>(
-          strip, begin, strip_of(band_, masks_, masks_.rest, n - 1), before, words_, pairs_.data());
+    if (before) {
+      const size_t count = list_pairs<corners>(strip, *before, words_, pairs_.data());
       for (size_t i = 0; i < count; ++i) {
         const RunPair pair = pairs_[i];
         const uint32_t node = nodes[pair.a], other = nodes[pair.b];
@@ -313,12 +327,15 @@ class Scan {
         if (node != other && node != none) nodes[pair.a] = joined(node, other);
       }
     }
+    // Found here, not at the end: list_fresh() would wait for the nodes that have just been stored.
+    const size_t new_count = below ? list_new_pairs(strip, *below, n) : 0;
     // Runs that touch none become nodes of their own.
-    if (fresh_.size() < end - begin) fresh_.resize(end - begin);
+    if (fresh_.size() < end - begin + max_simd_words) fresh_.resize(end - begin + max_simd_words);
     uint32_t* const fresh = fresh_.data();
-    const uint32_t made = take_nodes(nodes + begin, end - begin, nodes_, fresh);
+    const uint32_t made = list_fresh(nodes + begin, end - begin, fresh);
     for (uint32_t i = 0; i < made; ++i) {
       const uint32_t node = nodes_ + i, run = begin + fresh[i];
+      nodes[run] = node;
       parents[node] = node;
       parts[node] = {
           {}, 0, place_of(strip, edges[2 * size_t{run}], edges[2 * size_t{run} + 1], row)};
@@ -326,33 +343,27 @@ class Scan {
     nodes_ += made;
     add_runs(edges + 2 * size_t{begin}, nodes + begin, band_.counts.data(), end - begin, row,
              parts);
-    const ComponentRuns& below = band_.below;
-    const uint32_t below_begin = below.begin[n];
-    if (below_begin == below.begin[n + 1]) return;
-    const size_t count =
-        list_new_pairs(strip, begin, strip_of(band_, masks_, masks_.rest_below, n), below_begin, n);
     uint32_t* const node_below = band_.node_below.data();
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < new_count; ++i) {
       const RunPair pair = pairs_[i];
       const uint32_t node = nodes[pair.a];
-      uint32_t& other = node_below[below.component(pair.b)];
+      uint32_t& other = node_below[band_.below.component(pair.b)];
       parts[node].set_has_below();
       other = other == none ? node : joined(node, other);
     }
   }
 
   /// Runs of the rest, in row j, that touch a known sample in the row `other`.
-  void join_known_beside(const Strip& strip, uint64_t n, uint64_t j, uint64_t other) {
-    for_each_run_beside<corners>(strip, band_.runs.begin[n], masks_.rest.row(j),
-                                 masks_.known.row(other), words_,
+  void join_known_beside(const Strip& strip, uint64_t j, uint64_t other) {
+    for_each_run_beside<corners>(strip, masks_.rest.row(j), masks_.known.row(other), words_,
                                  [&](uint32_t run) { joined(0, band_.runs.node[run]); });
   }
 
-  /// Components below that known samples of row j lie on.
-  void join_known_above(uint64_t j, uint64_t n) {
+  /// Components of the strip below that known samples of row j lie on.
+  void join_known_above(const Strip& below, uint64_t j) {
     const uint64_t *rest = masks_.rest_below.row(j), *known = masks_.known.row(j);
     if (!any_common(rest, known, words_)) return;
-    StripReader<corners> under{strip_of(band_, masks_, masks_.rest_below, n), band_.below.begin[n]};
+    RunReader under(below);
     uint64_t carry = 0;
     for (size_t w = 0; w < words_; ++w) {
       under.read(w);
@@ -424,19 +435,19 @@ template <bool corners>
 void find_seam_of(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,
                   ComponentSeam& seam) {
   const size_t words = masks.rest.words;
-  const Strip of_low = strip_of(low, masks, masks.rest, low.runs.strips() - 1);
-  const Strip of_high = strip_of(high, masks, masks.rest, 0);
-  const uint32_t low_begin = low.runs.begin[low.runs.strips() - 1], high_begin = high.runs.begin[0];
+  const Strip of_low = strip_of<corners>(low, masks, masks.rest, low.runs, low.runs.strips() - 1,
+                                         seam.low_starts, seam.ends);
+  const Strip of_high =
+      strip_of<corners>(high, masks, masks.rest, high.runs, 0, seam.high_starts, seam.ends);
   if (seam.pairs.empty()) seam.pairs.resize(words * bits_per_word + at_once);
-  seam.count =
-      list_pairs<corners>(of_high, high_begin, of_low, low_begin, words, seam.pairs.data());
+  seam.count = list_pairs<corners>(of_high, of_low, words, seam.pairs.data());
   seam.low_known.clear();
   seam.high_known.clear();
   if (!masks.has_known) return;
-  for_each_run_beside<corners>(of_low, low_begin, of_low.high, masks.known.row(high.begin), words,
+  for_each_run_beside<corners>(of_low, of_low.high, masks.known.row(high.begin), words,
                                [&](uint32_t run) { seam.low_known.push_back(run); });
-  for_each_run_beside<corners>(of_high, high_begin, of_high.low, masks.known.row(low.end - 1),
-                               words, [&](uint32_t run) { seam.high_known.push_back(run); });
+  for_each_run_beside<corners>(of_high, of_high.low, masks.known.row(low.end - 1), words,
+                               [&](uint32_t run) { seam.high_known.push_back(run); });
 }
 
 void seam_target(const ComponentBand& low, const ComponentBand& high, const ComponentMasks& masks,

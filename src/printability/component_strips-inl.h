@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strips: rows by twos, whose runs are read from words of bits. Included once for each instruction
+// Strips: rows by twos, and their runs, as words of bits. Included once for each instruction
 // set: counting the bits of a word is one instruction in most.
 #if defined(MSQ_PRINTABILITY_COMPONENT_STRIPS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_PRINTABILITY_COMPONENT_STRIPS_INL_H
@@ -34,47 +34,82 @@ inline uint64_t bits_to(unsigned bit) {
   return ~uint64_t{0} >> (bits_per_word - 1 - bit);
 }
 
-/// Two rows, of which a sample joins those above and below it.
+/// Two rows, of which a sample joins those above and below it, and their runs.
 struct Strip {
   const uint64_t *low, *high;
+  const uint64_t* starts;  ///< of runs
+  uint32_t begin;          ///< the first run
 };
 
-/// Strip n of a band.
-inline Strip strip_of(const ComponentBand& band, const ComponentMasks& masks,
-                      const ComponentMask& rows, uint64_t n) {
-  const uint64_t j = band.begin + rows_of_strip * n;
-  return {rows.row(j), j + 1 < band.end ? rows.row(j + 1) : masks.no_row.data()};
+/// Where the runs of two rows start, and the samples behind their last ones.
+template <bool corners>
+void find_edges(const uint64_t* low, const uint64_t* high, size_t words,
+                std::vector<uint64_t>& starts, std::vector<uint64_t>& ends) {
+  if (starts.size() < words) starts.resize(words);
+  if (ends.size() < words) ends.resize(words);
+  const Words d;
+  const size_t lanes = hn::Lanes(d);
+  const auto put_word = [&](size_t w) {
+    const auto before = [&](const uint64_t* row) {
+      return row[w] << 1 | (w > 0 ? row[w - 1] >> (bits_per_word - 1) : 0);
+    };
+    const uint64_t low_before = before(low), high_before = before(high);
+    const uint64_t any = low[w] | high[w], any_before = low_before | high_before;
+    const uint64_t goes_on = corners ? any_before : (low[w] & low_before) | (high[w] & high_before);
+    starts[w] = any & ~goes_on;
+    ends[w] = any_before & ~(any & goes_on);
+  };
+  put_word(0);
+  if (words <= lanes) {
+    for (size_t w = 1; w < words; ++w) put_word(w);
+    return;
+  }
+  for (size_t next = 1; next < words; next += lanes) {
+    const size_t w = std::min(next, words - lanes);  // the last vector may overlap another
+    const auto before = [&](const uint64_t* row, WordsV here) HWY_ATTR {
+      return hn::Or(hn::ShiftLeft<1>(here),
+                    hn::ShiftRight<bits_per_word - 1>(hn::LoadU(d, row + w - 1)));
+    };
+    const WordsV at_low = hn::LoadU(d, low + w), at_high = hn::LoadU(d, high + w);
+    const WordsV low_before = before(low, at_low), high_before = before(high, at_high);
+    const WordsV any = hn::Or(at_low, at_high), any_before = hn::Or(low_before, high_before);
+    const WordsV goes_on =
+        corners ? any_before : hn::Or(hn::And(at_low, low_before), hn::And(at_high, high_before));
+    hn::StoreU(hn::AndNot(goes_on, any), d, starts.data() + w);
+    hn::StoreU(hn::AndNot(hn::And(any, goes_on), any_before), d, ends.data() + w);
+  }
 }
 
-/// A strip of runs, read word by word. Which run a sample belongs to is the number of runs that
-/// start up to it.
+/// Strip n of a band; `rows` are those that the runs are of. Finds where they start.
 template <bool corners>
-struct StripReader {
-  Strip strip;
-  uint32_t before = 0;  // number of the run that starts first from this word on
-  uint64_t low = 0, high = 0;
-  uint64_t starts = 0;                     // of runs
-  uint64_t moved_low = 0, moved_high = 0;  // by one sample up
+Strip strip_of(const ComponentBand& band, const ComponentMasks& masks, const ComponentMask& rows,
+               const ComponentRuns& runs, uint64_t n, std::vector<uint64_t>& starts,
+               std::vector<uint64_t>& ends) {
+  const uint64_t j = band.begin + rows_of_strip * n;
+  const uint64_t *const low = rows.row(j), *const high = j + 1 < band.end ? rows.row(j + 1)
+                                                                          : masks.no_row.data();
+  find_edges<corners>(low, high, rows.words, starts, ends);
+  return {low, high, starts.data(), runs.begin[n]};
+}
 
-  StripReader(const Strip& of, uint32_t first) : strip(of), before(first) {}
+/// The runs of a strip, read word by word. Which run a sample belongs to is the number of runs that
+/// start up to it.
+class RunReader {
+ public:
+  explicit RunReader(const Strip& of) : from_(of.starts), before_(of.begin) {}
 
   void read(size_t w) {
-    before += count_ones(starts);
-    moved_low = low >> (bits_per_word - 1);
-    moved_high = high >> (bits_per_word - 1);
-    low = strip.low[w];
-    high = strip.high[w];
-    moved_low |= low << 1;
-    moved_high |= high << 1;
-    if constexpr (corners)
-      starts = (low | high) & ~(moved_low | moved_high);
-    else
-      starts = (low | high) & ~((low & moved_low) | (high & moved_high));
+    before_ += count_ones(starts_);
+    starts_ = from_[w];
   }
-  /// Where samples follow the last one of a run.
-  uint64_t ends() const { return (moved_low | moved_high) & (starts | ~(low | high)); }
+  uint64_t starts() const { return starts_; }
   /// The run that holds the highest of some bits of this word, which are all up to one.
-  uint32_t run_at(uint64_t up_to) const { return before + count_ones(starts & up_to) - 1; }
+  uint32_t run_at(uint64_t up_to) const { return before_ + count_ones(starts_ & up_to) - 1; }
+
+ private:
+  const uint64_t* from_;
+  uint32_t before_;  // the run that starts first from this word on
+  uint64_t starts_ = 0;
 };
 
 /// Bits of a word that are looked at together, even if fewer are set: the processor foresees loops
@@ -99,21 +134,23 @@ inline uint64_t place_of(const Strip& strip, uint32_t first, uint32_t end, uint3
 /// at one: some of them several times. There is room for one for each sample of a row, and for
 /// at_once more.
 template <bool corners>
-size_t list_pairs(const Strip& a, uint32_t a_begin, const Strip& b, uint32_t b_begin, size_t words,
-                  RunPair* pairs) {
+size_t list_pairs(const Strip& a, const Strip& b, size_t words, RunPair* pairs) {
   RunPair* to = pairs;
-  StripReader<corners> of_a{a, a_begin}, of_b{b, b_begin};
-  uint64_t carry = 0;
+  RunReader of_a(a), of_b(b);
+  uint64_t carry_a = 0, carry_b = 0, carry = 0;
   for (size_t w = 0; w < words; ++w) {
     of_a.read(w);
     of_b.read(w);
-    const uint64_t both = of_a.low & of_b.high;
+    const uint64_t row_a = a.low[w], row_b = b.high[w], both = row_a & row_b;
     // Samples where a run of `a` and one of `b` are met first.
     uint64_t meet = both & ~(both << 1 | carry);
     carry = both >> (bits_per_word - 1);
-    if constexpr (corners)
-      meet |= (of_a.low & ~of_a.moved_low & of_b.moved_high & ~of_b.high) |
-              (of_b.high & ~of_b.moved_high & of_a.moved_low & ~of_a.low);
+    if constexpr (corners) {
+      const uint64_t before_a = row_a << 1 | carry_a, before_b = row_b << 1 | carry_b;
+      meet |= (row_a & ~before_a & before_b & ~row_b) | (row_b & ~before_b & before_a & ~row_a);
+      carry_a = row_a >> (bits_per_word - 1);
+      carry_b = row_b >> (bits_per_word - 1);
+    }
     const uint32_t found = count_ones(meet);
     for (uint32_t i = 0; i < found; i += at_once)
       for (uint32_t k = i; k < i + at_once; ++k) {
@@ -130,10 +167,10 @@ size_t list_pairs(const Strip& a, uint32_t a_begin, const Strip& b, uint32_t b_b
 /// Calls take(run) for runs of a strip with samples in one of its rows that are next to samples of
 /// the row `beside`; for some of them several times.
 template <bool corners, class Take>
-void for_each_run_beside(const Strip& strip, uint32_t begin, const uint64_t* row,
-                         const uint64_t* beside, size_t words, Take&& take) {
+void for_each_run_beside(const Strip& strip, const uint64_t* row, const uint64_t* beside,
+                         size_t words, Take&& take) {
   if (!(corners ? any_next_to(row, beside, words) : any_common(row, beside, words))) return;
-  StripReader<corners> of{strip, begin};
+  RunReader of(strip);
   for (size_t w = 0; w < words; ++w) {
     of.read(w);
     const uint64_t touching = corners ? spread_word(beside, words, w) : beside[w];

@@ -87,7 +87,9 @@ uint64_t ComponentBand::bytes() const {
   for (const std::vector<uint32_t>* each :
        {&parents, &node_below, &roots, &counts, &fresh, &global, &global_below, &heirs})
     all += capacity_bytes(*each);
-  return all + capacity_bytes(parts) + capacity_bytes(pairs) + capacity_bytes(overlaps);
+  for (const std::vector<uint64_t>& each : starts) all += capacity_bytes(each);
+  return all + capacity_bytes(parts) + capacity_bytes(pairs) + capacity_bytes(overlaps) +
+         capacity_bytes(ends);
 }
 
 void Components::Events::clear() {
@@ -124,11 +126,12 @@ Components::Components(uint64_t nx, uint64_t ny, Rules rules, unsigned bands)
 
 uint64_t Components::held_bytes() const {
   uint64_t all = capacity_bytes(seam_.pairs) + capacity_bytes(seam_.low_known) +
-                 capacity_bytes(seam_.high_known) + capacity_bytes(masks_.no_row) +
-                 capacity_bytes(live_) + capacity_bytes(next_) + capacity_bytes(parents_) +
-                 capacity_bytes(numbers_) + capacity_bytes(heirs_) + capacity_bytes(has_below_) +
-                 capacity_bytes(events_.islands) + capacity_bytes(events_.cups) +
-                 capacity_bytes(events_.ended);
+                 capacity_bytes(seam_.high_known) + capacity_bytes(seam_.low_starts) +
+                 capacity_bytes(seam_.high_starts) + capacity_bytes(seam_.ends) +
+                 capacity_bytes(masks_.no_row) + capacity_bytes(live_) + capacity_bytes(next_) +
+                 capacity_bytes(parents_) + capacity_bytes(numbers_) + capacity_bytes(heirs_) +
+                 capacity_bytes(has_below_) + capacity_bytes(events_.islands) +
+                 capacity_bytes(events_.cups) + capacity_bytes(events_.ended);
   for (const ComponentBand& band : bands_) all += sizeof band + band.bytes();
   return all;
 }

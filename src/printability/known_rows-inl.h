@@ -177,9 +177,15 @@ inline bool extend_row(const uint64_t* HWY_RESTRICT row, const uint64_t* HWY_RES
 
 /// Whether two rows have a sample in common.
 inline bool any_common(const uint64_t* a, const uint64_t* b, size_t words) {
-  uint64_t any = 0;
-  for (size_t w = 0; w < words; ++w) any |= a[w] & b[w];
-  return any != 0;
+  const Words d;
+  const size_t lanes = hn::Lanes(d);
+  WordsV any = hn::Zero(d);
+  size_t w = 0;
+  for (; w + lanes <= words; w += lanes)
+    any = hn::Or(any, hn::And(hn::LoadU(d, a + w), hn::LoadU(d, b + w)));
+  uint64_t any_tail = 0;
+  for (; w < words; ++w) any_tail |= a[w] & b[w];
+  return any_tail != 0 || !is_zero(any);
 }
 
 /// Whether a sample of a row is also one of another row, or next to one.
