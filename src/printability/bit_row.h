@@ -22,6 +22,16 @@ inline void add_bits(uint64_t* row, const uint64_t* other, uint64_t first, uint6
   }
 }
 
+/// Copies a row. Returns whether any sample is set.
+inline bool copy_row(const uint64_t* row, size_t words, uint64_t* to) {
+  uint64_t any = 0;
+  for (size_t w = 0; w < words; ++w) {
+    to[w] = row[w];
+    any |= row[w];
+  }
+  return any != 0;
+}
+
 /// The runs of a word above its seeds, which are a subset of its bits: a sum carries from each seed
 /// to the end of its run.
 inline uint64_t filled_up(uint64_t word, uint64_t seeds) {

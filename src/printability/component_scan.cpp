@@ -168,10 +168,10 @@ class Scan {
       const uint64_t end = std::min(first + rows_of_strip, band_.end);
       const bool has_below = below.begin[n] < below.begin[n + 1];
       const Strip strip_below = has_below ? strip_here(masks_.rest_below, below, n, 2) : Strip{};
-      bool has_rest = !masks_.has_known;
+      bool has_rest = false;
       for (uint64_t j = first; j < end; ++j) {
         if (!masks_.has_known) {
-          std::copy_n(rows_ + j * words_, words_, masks_.rest.row(j));
+          has_rest |= copy_row(rows_ + j * words_, words_, masks_.rest.row(j));
           continue;
         }
         if (has_below) join_known_above(strip_below, j);

@@ -11,6 +11,7 @@
 
 #include "base/job.h"
 #include "base/simd.h"
+#include "printability/bit_row.h"
 
 #ifndef MSQ_PRINTABILITY_LINES
 #define MSQ_PRINTABILITY_LINES
@@ -101,16 +102,6 @@ HWY_INLINE void make_lines(const Disc& disc, const uint64_t* line, size_t words,
       at += stride;
     }
   }
-}
-
-/// Copies a row. Returns whether any sample is set.
-HWY_INLINE bool copy_row(const uint64_t* row, size_t words, uint64_t* line) {
-  uint64_t any = 0;
-  for (size_t w = 0; w < words; ++w) {
-    line[w] = row[w];
-    any |= row[w];
-  }
-  return any != 0;
 }
 
 /// The lines of a disc for the last rows, at least as many as it spans.
