@@ -19,6 +19,16 @@ constexpr int max_depth = 10;
 /// boundary; see keep_bent().
 constexpr double places_beside[] = {0.25, 0.5, 0.75};
 constexpr double beside_piece = 0.75;
+/// Of the tolerance. Points of the boundary are found as exactly.
+constexpr double on_segment = 0.125;
+
+bool is_near_segment(Vec2 p, Vec2 a, Vec2 b, double limit) {
+  const Vec2 d = b - a, from = p - a;
+  const double along = dot(from, d), squared = dot(d, d);
+  const Vec2 off = along <= 0 ? from : along >= squared ? p - b : from - d * (along / squared);
+  return dot(off, off) <= limit * limit;
+}
+
 /// Whether segments ab and cd have a point in common.
 bool do_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const auto side = [](Vec2 p, Vec2 q, Vec2 r) {
@@ -54,7 +64,7 @@ void ContourDetails::find(ContourPoints& points) {
   held_ = Reservation(points.model().context().budget, 0, "");
   while (suspects_.add_some(memory_->pieces, points.job())) settle(points);
   hold_memory();
-  drop_tangles();
+  finish_pieces();
 }
 
 /// Takes the memory for as many pieces and points as there are: both halves of each piece, the
@@ -396,23 +406,50 @@ Vec2 ContourDetails::rounded(Vec2 p) const {
   return {nearest_unit(p.x * units_), nearest_unit(p.y * units_)};
 }
 
-/// Drops the points of pieces that would touch themselves.
-void ContourDetails::drop_tangles() {
+/// Of the points of one piece, leaves out those on segments between others: between corners,
+/// halving finds several. Returns the end of those that remain.
+size_t ContourDetails::straighten(size_t first, size_t end) {
+  std::vector<DetailPoint>& details = memory_->details;
+  if (end - first < 2) return end;
+  const Vec2 last = rings_.at(details[first].next);
+  Vec2 from = rings_.at(details[first].id);
+  const auto at = [&](size_t i) { return i < end ? details[i].at : last; };
+  const auto are_on_segment = [&](size_t begin, size_t to) {
+    for (size_t i = begin; i < to; ++i)
+      if (!is_near_segment(at(i), from, at(to), on_segment * tolerance_)) return false;
+    return true;
+  };
+  size_t kept = first;
+  for (size_t next = first; next < end; ++next) {
+    const size_t begin = next;
+    while (next < end && are_on_segment(begin, next + 1)) ++next;
+    if (next == end) break;
+    from = at(next);
+    details[kept++] = details[next];
+  }
+  return kept;
+}
+
+/// Puts the points of each piece in their final form. Drops those of pieces that would touch
+/// themselves.
+void ContourDetails::finish_pieces() {
+  std::vector<DetailPoint>& details = memory_->details;
   std::vector<Vec2> line;
   size_t kept = 0;
-  for (size_t first = 0, end; first < memory_->details.size(); first = end) {
-    const uint32_t id = memory_->details[first].id;
+  for (size_t first = 0, end; first < details.size(); first = end) {
+    const uint32_t id = details[first].id, next = details[first].next;
+    for (end = first; end < details.size() && details[end].id == id;) ++end;
+    const size_t straight_end = straighten(first, end);
     line.assign(1, rounded(rings_.at(id)));
-    for (end = first; end < memory_->details.size() && memory_->details[end].id == id; ++end)
-      line.push_back(rounded(memory_->details[end].at));
-    line.push_back(rounded(rings_.at(memory_->details[first].next)));
+    for (size_t i = first; i < straight_end; ++i) line.push_back(rounded(details[i].at));
+    line.push_back(rounded(rings_.at(next)));
     if (is_tangled(line)) {
       ++unresolved_;
       continue;
     }
-    for (size_t i = first; i < end; ++i) memory_->details[kept++] = memory_->details[i];
+    for (size_t i = first; i < straight_end; ++i) details[kept++] = details[i];
   }
-  memory_->details.resize(kept);
+  details.resize(kept);
 }
 
 }  // namespace msq

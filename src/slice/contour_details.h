@@ -89,7 +89,8 @@ class ContourDetails {
   void split(ContourPoints& points);
   void begin_run();
   void merge_runs();
-  void drop_tangles();
+  size_t straighten(size_t first, size_t end);
+  void finish_pieces();
   static bool do_lines_meet(const Piece& piece);
   Corner corner_of(const Piece& piece) const;
   Search search_of(size_t number, const Beside& beside) const;
