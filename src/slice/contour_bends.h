@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which pieces of the boundary may bend by more than a tolerance, many at a time: the test with
-// which ContourDetails begins.
+// which ContourSuspects begins.
 #pragma once
 
 #include <cstddef>

@@ -58,7 +58,21 @@ GapCrossing ContourGaps::crossing_before(const Place& p) const {
           static_cast<uint8_t>(i),
           static_cast<uint8_t>(j),
           p.side == bottom || p.side == top,
-          (cells_[p.cell].rows[j] >> i & 1) != 0};
+          (cells_[p.cell].rows[j] >> i & 1) != 0,
+          static_cast<uint8_t>(p.i),
+          static_cast<uint8_t>(p.j)};
+}
+
+bool ContourGaps::is_saddle(const Place& p) const {
+  const uint32_t low = cells_[p.cell].rows[p.j] >> p.i & 3;
+  const uint32_t high = cells_[p.cell].rows[p.j + 1] >> p.i & 3;
+  return low + high == 3 && low != 0 && high != 0;  // 1 and 2
+}
+
+void ContourGaps::part_behind(const GapCrossing& c, Vec2& low, Vec2& high) const {
+  const Cell& cell = cells_[c.cell];
+  low = node(cell, c.part_i, c.part_j);
+  high = node(cell, c.part_i + 1u, c.part_j + 1u);
 }
 
 // As RingSteps; saddles connect what is outside, which keeps gaps whole.

@@ -41,6 +41,7 @@ struct GapCrossing {
   uint32_t cell;  ///< among the divided ones
   uint8_t i, j;   ///< the first node of the edge
   bool is_horizontal, starts_inside;
+  uint8_t part_i, part_j;  ///< the part of the cell that follows
 };
 
 class ContourGaps {
@@ -91,6 +92,10 @@ class ContourGaps {
   uint32_t* ring_before(const Place& place);
   /// The crossing before a place.
   GapCrossing crossing_before(const Place& place) const;
+  /// Whether the part has four crossings.
+  bool is_saddle(const Place& place) const;
+  /// The corners of the part behind a crossing.
+  void part_behind(const GapCrossing& crossing, Vec2& low, Vec2& high) const;
   /// Goes on to the next part; false if that is beyond the divided cells: then only `side` has
   /// changed.
   bool step(Place& place) const;

@@ -13,7 +13,8 @@ enum : uint8_t {
   first_inside = 2,  ///< the first node of its edge
   beyond = 4,        ///< it lies beyond the window
   seam = 8,          ///< it lies on an edge of the window
-  saddle = 16        ///< the cell that follows has four crossings
+  saddle = 16,       ///< the cell that follows has four crossings, or is a divided one
+  fine = 32          ///< it lies between finer nodes: then a part of a divided cell follows
 };
 }  // namespace ring_kind
 

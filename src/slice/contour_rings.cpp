@@ -174,8 +174,9 @@ bool ContourRings::go_around(ContourSection& section, RingPlace place, uint32_t 
     make_room();
     const uint8_t kind = section.is_horizontal(place.crossing) ? ring_kind::horizontal : 0;
     if (kind) section.rings()[place.crossing] = number;
-    put_crossing(section.ends()[place.crossing], place.cell,
-                 kind | (place.side >= cell_sides::top ? ring_kind::first_inside : 0));
+    put_crossing(
+        section.ends()[place.crossing], place.cell,
+        kind | ring_kind::saddle | (place.side >= cell_sides::top ? ring_kind::first_inside : 0));
     if (!go_through(section, gaps_.enter(gaps_.cell_at(place.cell), place.side), start, place, job))
       return InnerCells::are_inner(inner_bits);
   } while (place.crossing != first);
@@ -197,7 +198,8 @@ bool ContourRings::go_through(const ContourSection& section, ContourGaps::Place 
     if (uint32_t* const ring = gaps_.ring_before(at)) *ring = number;
     make_room();
     put_crossing(0, gaps_.place_of(at.cell),
-                 (crossing.is_horizontal ? ring_kind::horizontal : 0) |
+                 ring_kind::fine | (gaps_.is_saddle(at) ? ring_kind::saddle : 0) |
+                     (crossing.is_horizontal ? ring_kind::horizontal : 0) |
                      (crossing.starts_inside ? ring_kind::first_inside : 0));
   }
   using namespace cell_sides;
@@ -211,11 +213,11 @@ bool ContourRings::go_through(const ContourSection& section, ContourGaps::Place 
   return true;
 }
 
-/// Adds a crossing behind which the boundary has no other points.
+/// Adds a crossing in front of a divided cell, or within it.
 void ContourRings::put_crossing(double end, uint64_t cell, int kind) {
   memory_->ends[count_] = end;
   memory_->cells[count_] = cell;
-  memory_->kinds[count_] = static_cast<uint8_t>(kind | ring_kind::saddle);
+  memory_->kinds[count_] = static_cast<uint8_t>(kind);
   ++count_;
 }
 
@@ -267,9 +269,7 @@ void ContourRings::find_gates(const Ring& ring, double tolerance, Vec2* at, Line
   const size_t first = ring.first, count = ring.end - ring.first;
   msq::find_gates({memory_->cells.data() + first, memory_->kinds.data() + first, count}, nodes_,
                   memory_->x.data() + first, memory_->y.data() + first, tolerance, at, gates);
-  for (auto c = std::lower_bound(gap_crossings_.begin(), gap_crossings_.end(), ring.first,
-                                 [](const GapCrossing&g, uint32_t i) { return g.id < i; });
-       c != gap_crossings_.end() && c->id < ring.end; ++c)
+  for (auto c = gap_crossing_from(ring.first); c != gap_crossings_.end() && c->id < ring.end; ++c)
     gates[c->id - ring.first] = gaps_.gate(*c, this->at(c->id), tolerance);
   if (ring.is_inner) return;
   const InnerCells inner = inner_cells(grid_);
@@ -286,7 +286,18 @@ void ContourRings::find_gates(const Ring& ring, double tolerance, Vec2* at, Line
   }
 }
 
+/// The first crossing between finer nodes that is not before one.
+std::vector<GapCrossing>::const_iterator ContourRings::gap_crossing_from(uint32_t id) const {
+  return std::lower_bound(gap_crossings_.begin(), gap_crossings_.end(), id,
+                          [](const GapCrossing& g, uint32_t i) { return g.id < i; });
+}
+
 ContourRings::Cell ContourRings::cell_of(uint32_t i) const {
+  if (is_fine(i)) {
+    Cell part;
+    gaps_.part_behind(*gap_crossing_from(i), part.low, part.high);
+    return part;
+  }
   const uint32_t column = column_of(memory_->cells[i]), row = row_of(memory_->cells[i]);
   return {{grid_.u(column), grid_.v(row)}, {grid_.u(column + 1), grid_.v(row + 1)}};
 }

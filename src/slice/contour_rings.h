@@ -55,10 +55,13 @@ class ContourRings {
   bool is_beyond(uint32_t i) const { return memory_->kinds[i] & ring_kind::beyond; }
   /// Whether it lies on an edge of the window.
   bool is_on_seam(uint32_t i) const { return memory_->kinds[i] & ring_kind::seam; }
-  /// Whether it leads into a cell with four crossings, or into a part of a divided one.
+  /// Whether it leads into a cell with four crossings, or into a divided one.
   bool is_before_saddle(uint32_t i) const { return memory_->kinds[i] & ring_kind::saddle; }
 
-  /// The cell that follows a crossing.
+  /// Whether it lies between the finer nodes of a divided cell.
+  bool is_fine(uint32_t i) const { return memory_->kinds[i] & ring_kind::fine; }
+
+  /// The cell that follows a crossing; between finer nodes, the part of a cell.
   struct Cell {
     Vec2 low, high;
   };
@@ -98,6 +101,7 @@ class ContourRings {
     uint32_t axis;           // of its direction
   };
   Edge edge_of(uint32_t i) const;
+  std::vector<GapCrossing>::const_iterator gap_crossing_from(uint32_t id) const;
   /// The number of the ring that is followed.
   uint32_t next_number() const { return rings_before_ + static_cast<uint32_t>(rings_.size()); }
   template <class Add, class AddFromGap>

@@ -6,6 +6,7 @@
 namespace msq {
 
 ContourRoom::Beside ContourRoom::beside(uint32_t id, int axis, bool is_high) const {
+  if (rings_.is_fine(id)) return {};
   const ContourGrid& grid = rings_.grid();
   const uint64_t step = axis == 0 ? 1 : uint64_t{1} << 32;
   const uint64_t own = rings_.place_of_cell(id), place = is_high ? own + step : own - step;

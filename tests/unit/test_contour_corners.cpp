@@ -196,6 +196,34 @@ void test_stubs(void**) {
   if (points > 15 * count) fail_msg("%zu points of %zu unions of 12 corners", points, count);
 }
 
+/// The end of an acute gap, between finer nodes: nearly always found or counted.
+void test_ends_of_gaps(void**) {
+  Random random(75);
+  const size_t count = test_count(400);
+  size_t missed = 0;
+  for (size_t n = 0; n < count; ++n) {
+    const double depth = random.between(3, 6), half = depth * std::tan(random.between(0.3, 0.5));
+    const double turn = random.between(0, 2 * pi), c = std::cos(turn), s = std::sin(turn);
+    const RingPoint end{random.between(-1, 1), random.between(-1, 1)};
+    Polygon notched;
+    for (const RingPoint p : {RingPoint{0, 0},
+                              {depth, half},
+                              {depth, half + 3},
+                              {-3, half + 3},
+                              {-3, -half - 3},
+                              {depth, -half - 3},
+                              {depth, -half}})
+      notched.push_back({end.u + c * p.u - s * p.v, end.v + s * p.u + c * p.v});
+    const double tolerance = random.below(2) != 0 ? 0.05 : 0.01;
+    const Rings all = rings_of(mesh_of(prism(notched)), plan_of(tolerance));
+    check_rings(all);
+    if (all.rings.size() != 1) fail_msg("%zu rings around a notch", all.rings.size());
+    const double off = std::max(farthest(notched, all.rings[0]), farthest(all.rings[0], notched));
+    missed += off > tolerance && all.unresolved == 0;
+  }
+  if (missed > count / 200) fail_msg("the ends of %zu of %zu gaps are missed", missed, count);
+}
+
 /// Where many corners reach into the same cells, rings still touch nothing, also in units so large
 /// that rounding moves points by a hundredth of the pitch.
 void test_crowds(void**) {
@@ -221,6 +249,7 @@ void test_crowds(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(msq::test::test_polygons), cmocka_unit_test(msq::test::test_discs),
-      cmocka_unit_test(msq::test::test_stubs), cmocka_unit_test(msq::test::test_crowds)};
+      cmocka_unit_test(msq::test::test_stubs), cmocka_unit_test(msq::test::test_ends_of_gaps),
+      cmocka_unit_test(msq::test::test_crowds)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
