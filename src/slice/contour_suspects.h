@@ -45,7 +45,11 @@ class ContourSuspects {
   /// Adds the next pieces, in the order of crossings: so many that they stay in the core's cache.
   /// False if none is left.
   bool add_some(std::vector<ContourPiece>& pieces, const Job* job);
-  uint64_t bytes() const { return memory_->bytes(); }
+  /// What these pieces need, whatever has been kept of earlier ones.
+  uint64_t bytes() const {
+    return sizeof(Memory) + memory_->bends.size() * sizeof(uint64_t) +
+           memory_->closed.size() * sizeof(RingPoints);
+  }
 
  private:
   struct Suspect {
