@@ -2,6 +2,7 @@
 // Points and boxes of a plane in double precision.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace msq {
@@ -40,6 +41,13 @@ inline Vec2 unit(Vec2 a) {
 /// Turned left by a right angle.
 inline Vec2 left_of(Vec2 a) {
   return {-a.y, a.x};
+}
+/// The way to p from the nearest point of the segment from a to b.
+inline Vec2 off_segment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 from = p - a, way = b - a;
+  const double squared = dot(way, way);
+  const double t = squared > 0 ? std::clamp(dot(from, way) / squared, 0.0, 1.0) : 0;
+  return from - way * t;
 }
 
 struct Box2 {

@@ -100,15 +100,11 @@ void simplify(Polyline& path, double distance, const Box2& window) {
   while (!open.empty()) {
     const auto [from, to] = open.back();
     open.pop_back();
-    const Vec2 a = points[from], way = points[to] - a;
-    const double squared = dot(way, way);
     double farthest = 0;
     size_t at = from;
     for (size_t i = from + 1; i < to; ++i) {
       poll();
-      const Vec2 p = points[i] - a;
-      const double t = squared > 0 ? std::fmin(1, std::fmax(0, dot(p, way) / squared)) : 0;
-      const Vec2 off = p - way * t;
+      const Vec2 off = off_segment(points[i], points[from], points[to]);
       if (dot(off, off) > farthest) {
         farthest = dot(off, off);
         at = i;

@@ -47,37 +47,26 @@ void find_edges(const uint64_t* low, const uint64_t* high, size_t words,
                 std::vector<uint64_t>& starts, std::vector<uint64_t>& ends) {
   if (starts.size() < words) starts.resize(words);
   if (ends.size() < words) ends.resize(words);
-  const Words d;
-  const size_t lanes = hn::Lanes(d);
-  const auto put_word = [&](size_t w) {
-    const auto before = [&](const uint64_t* row) {
-      return row[w] << 1 | (w > 0 ? row[w - 1] >> (bits_per_word - 1) : 0);
+  const auto put = [&](auto d, size_t w) HWY_ATTR {
+    const auto before = [&](const uint64_t* row, auto here) HWY_ATTR {
+      const auto last = w > 0 ? hn::LoadU(d, row + w - 1) : hn::Zero(d);
+      return hn::Or(hn::ShiftLeft<1>(here), hn::ShiftRight<bits_per_word - 1>(last));
     };
-    const uint64_t low_before = before(low), high_before = before(high);
-    const uint64_t any = low[w] | high[w], any_before = low_before | high_before;
-    const uint64_t goes_on = corners ? any_before : (low[w] & low_before) | (high[w] & high_before);
-    starts[w] = any & ~goes_on;
-    ends[w] = any_before & ~(any & goes_on);
-  };
-  put_word(0);
-  if (words <= lanes) {
-    for (size_t w = 1; w < words; ++w) put_word(w);
-    return;
-  }
-  for (size_t next = 1; next < words; next += lanes) {
-    const size_t w = std::min(next, words - lanes);  // the last vector may overlap another
-    const auto before = [&](const uint64_t* row, WordsV here) HWY_ATTR {
-      return hn::Or(hn::ShiftLeft<1>(here),
-                    hn::ShiftRight<bits_per_word - 1>(hn::LoadU(d, row + w - 1)));
-    };
-    const WordsV at_low = hn::LoadU(d, low + w), at_high = hn::LoadU(d, high + w);
-    const WordsV low_before = before(low, at_low), high_before = before(high, at_high);
-    const WordsV any = hn::Or(at_low, at_high), any_before = hn::Or(low_before, high_before);
-    const WordsV goes_on =
+    const auto at_low = hn::LoadU(d, low + w), at_high = hn::LoadU(d, high + w);
+    const auto low_before = before(low, at_low), high_before = before(high, at_high);
+    const auto any = hn::Or(at_low, at_high), any_before = hn::Or(low_before, high_before);
+    const auto goes_on =
         corners ? any_before : hn::Or(hn::And(at_low, low_before), hn::And(at_high, high_before));
     hn::StoreU(hn::AndNot(goes_on, any), d, starts.data() + w);
     hn::StoreU(hn::AndNot(hn::And(any, goes_on), any_before), d, ends.data() + w);
-  }
+  };
+  const hn::CappedTag<uint64_t, 1> one;
+  const size_t lanes = hn::Lanes(Words());
+  put(one, 0);
+  if (words <= lanes)
+    for (size_t w = 1; w < words; ++w) put(one, w);
+  else  // the last vector may overlap another
+    for (size_t w = 1; w < words; w += lanes) put(Words(), std::min(w, words - lanes));
 }
 
 /// Strip n of a band; `rows` are those that the runs are of. Finds where they start.
@@ -102,7 +91,6 @@ class RunReader {
     before_ += count_ones(starts_);
     starts_ = from_[w];
   }
-  uint64_t starts() const { return starts_; }
   /// The run that holds the highest of some bits of this word, which are all up to one.
   uint32_t run_at(uint64_t up_to) const { return before_ + count_ones(starts_ & up_to) - 1; }
 

@@ -2,9 +2,9 @@
 #include "slice/contour_details.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <utility>
+#include <limits>
+#include <span>
 
 #include "slice/contour_line.h"
 #include "slice/nearest_unit.h"
@@ -21,13 +21,6 @@ constexpr double places_beside[] = {0.25, 0.5, 0.75};
 constexpr double beside_piece = 0.75;
 /// Of the tolerance. Points of the boundary are found as exactly.
 constexpr double on_segment = 0.125;
-
-bool is_near_segment(Vec2 p, Vec2 a, Vec2 b, double limit) {
-  const Vec2 d = b - a, from = p - a;
-  const double along = dot(from, d), squared = dot(d, d);
-  const Vec2 off = along <= 0 ? from : along >= squared ? p - b : from - d * (along / squared);
-  return dot(off, off) <= limit * limit;
-}
 
 /// Whether segments ab and cd have a point in common.
 bool do_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
@@ -416,7 +409,7 @@ size_t ContourDetails::straighten(size_t first, size_t end) {
   const auto at = [&](size_t i) { return i < end ? details[i].at : last; };
   const auto are_on_segment = [&](size_t begin, size_t to) {
     for (size_t i = begin; i < to; ++i)
-      if (!is_near_segment(at(i), from, at(to), on_segment * tolerance_)) return false;
+      if (length(off_segment(at(i), from, at(to))) > on_segment * tolerance_) return false;
     return true;
   };
   size_t kept = first;

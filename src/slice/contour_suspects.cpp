@@ -114,7 +114,7 @@ void ContourSuspects::suspect(const ContourRings::Ring& ring, uint32_t id) {
   };
   const uint32_t next = behind(id);
   if (rings_.is_beyond(id) || rings_.is_beyond(next) || rings_.is_before_saddle(id)) return;
-  // Parts beside cells that are not divided have no edge of their own in common with these.
+  // A ring leaves divided cells anywhere on a whole cell's edge, so not within the part.
   if (rings_.is_fine(id) && !rings_.is_fine(next)) return;
   const Vec2 a = rings_.at(id), b = rings_.at(next);
   if (dot(b - a, b - a) <= tolerance_ * tolerance_) return;
