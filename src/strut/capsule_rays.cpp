@@ -49,16 +49,42 @@ HWY_INLINE Vector set(float x, float y, float z) {
   return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
 }
 
-/// The ids given by the bits, without those already seen.
-HWY_INLINE uint64_t new_ones(const uint32_t* ids, uint64_t bits, SeenIds* seen) {
-  if (!seen) return bits;
-  uint64_t found = 0;
-  for (uint64_t rest = bits; rest; rest &= rest - 1) {
-    const int i = std::countr_zero(rest);
-    found |= uint64_t{seen->add(ids[i])} << i;
+/// Capsules of a chunk that rays may meet, by their numbers.
+struct Chosen {
+  static constexpr size_t most = 64;
+  uint32_t numbers[most + capsule_padding];
+  size_t count = 0;
+
+  HWY_INLINE void add(size_t first, hn::Mask<D> which) {
+    const hn::RebindToUnsigned<D> d;
+    const Compression<D> order(which);
+    hn::StoreU(order(hn::Iota(d, static_cast<uint32_t>(first))), d, numbers + count);
+    count += hn::CountTrue(D(), which);
   }
-  return found;
-}
+  /// Leaves out those that were seen. Without a branch: which are is unpredictable.
+  HWY_INLINE void drop_seen(const uint32_t* ids, SeenIds* seen) {
+    if (!seen) return;
+    size_t kept = 0;
+    for (size_t n = 0; n < count; ++n) {
+      const uint32_t number = numbers[n];
+      numbers[kept] = number;
+      kept += seen->add(ids[number]);
+    }
+    count = kept;
+  }
+  /// Moves those whose bits are set to `to`, where number 0 is `begin`.
+  HWY_INLINE void move(uint64_t bits, size_t begin, Chosen& to) {
+    size_t kept = 0;
+    for (size_t n = 0; n < count; ++n) {
+      const uint32_t number = numbers[n];
+      if (bits >> number & 1)
+        to.numbers[to.count++] = static_cast<uint32_t>(begin + number);
+      else
+        numbers[kept++] = number;
+    }
+    count = kept;
+  }
+};
 
 /// Whether axes from w on come within the square root of `most` of the line through 0 along u,
 /// between the planes across it at `low` and `high`. `begin`: where axes begin along it.
@@ -75,11 +101,10 @@ HWY_INLINE hn::Mask<D> come_near(const Vector& w, const Vector& ab, const Vector
   return hn::And(is_there, hn::Le(fast_dot(v, v), most));
 }
 
-/// Writes the numbers of the capsules of a chunk whose axes come within `reach` of the packet's
-/// line, between the planes across it at `near` and `far`.
-HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t end, float radius,
-                            const float (&corner)[3], const RayPacket& rays, SeenIds* seen,
-                            uint32_t* found) {
+/// Chooses the capsules of a chunk whose axes come within `reach` of the packet's line, between the
+/// planes across it at `near` and `far`.
+HWY_INLINE void near_line(const CapsuleView& capsules, size_t begin, size_t end, float radius,
+                          const float (&corner)[3], const RayPacket& rays, Chosen& chosen) {
   const D d;
   const float reach = radius + rays.spread;
   const V low = hn::Set(d, rays.near - radius), high = hn::Set(d, rays.far + radius);
@@ -87,17 +112,12 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
       set(rays.centre[0] - corner[0], rays.centre[1] - corner[1], rays.centre[2] - corner[2]);
   const Vector u = set(rays.along[0], rays.along[1], rays.along[2]);
   const V most = hn::Set(d, reach * reach);
-  size_t count = 0;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const Vector w = subtract(load(capsules.a, i), centre);
     V axis_begin;
-    uint64_t bits = bits_of(d, come_near(w, load(capsules.ab, i), u, most, low, high, axis_begin));
-    if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
-    bits = new_ones(capsules.ids + i, bits, seen);
-    for (; bits; bits &= bits - 1)
-      found[count++] = static_cast<uint32_t>(i + static_cast<size_t>(std::countr_zero(bits)));
+    const auto is_near = come_near(w, load(capsules.ab, i), u, most, low, high, axis_begin);
+    chosen.add(i, hn::And(is_near, hn::FirstN(d, end - i)));
   }
-  return count;
 }
 
 /// The hits so far of a group of rays.
@@ -135,10 +155,9 @@ struct LaneHits {
 constexpr float min_across = 1.0f / 1600, min_squared = 1e-10f;
 
 template <bool kStarts>
-HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t chosen_count,
-                     float radius, const float (&corner)[3], const RayPacket& rays,
-                     PacketHits& hits) {
-  if (chosen_count == 0) return;
+HWY_INLINE void meet(const CapsuleView& capsules, const Chosen& chosen, float radius,
+                     const float (&corner)[3], const RayPacket& rays, PacketHits& hits) {
+  if (chosen.count == 0) return;
   const D d;
   const V r2 = hn::Set(d, radius * radius), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V none = hn::Set(d, std::numeric_limits<float>::infinity());
@@ -150,8 +169,8 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
                       hn::Load(d, rays.direction[2] + lane)};
     const V from = hn::Load(d, rays.from + lane), to = hn::Load(d, rays.to + lane);
     LaneHits found(hits, lane);
-    for (size_t n = 0; n < chosen_count; ++n) {
-      const size_t i = chosen[n];
+    for (size_t n = 0; n < chosen.count; ++n) {
+      const size_t i = chosen.numbers[n];
       const Vector a = set(capsules.a[0][i], capsules.a[1][i], capsules.a[2][i]);
       const Vector ab = set(capsules.ab[0][i], capsules.ab[1][i], capsules.ab[2][i]);
       const Vector w = subtract(a, o);
@@ -164,7 +183,6 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
       const V room = hn::Sub(r2, fast_dot(across, across));
       const auto is_small = hn::Lt(qq, hn::Mul(ll, hn::Set(d, min_across)));
       auto met = hn::Or(hn::Ge(room, zero), is_small);
-      if (hn::AllFalse(d, met)) continue;
       const V shift = hn::Mul(dz, hn::Sqrt(hn::Mul(hn::Max(room, zero), hn::Div(inverse, ll))));
       const V s = clamp01(D(), hn::Sub(s0, shift));
       const Vector v = fast_add_scaled(p, q, s);
@@ -224,7 +242,7 @@ size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, 
 
 /// Capsules of a chunk, projected to the plane normal to the common direction of the rays.
 struct SeenCapsules {
-  static constexpr size_t most = 64;
+  static constexpr size_t most = Chosen::most;
   /// The position of an end and the vector to the other end, along two axes of the plane and along
   /// the rays; the inverse of |q|^2; and (s0 - s) / sqrt(H).
   alignas(64) float px[most], py[most], pz[most], qx[most], qy[most], qz[most], inverse[most],
@@ -232,9 +250,9 @@ struct SeenCapsules {
 };
 
 template <bool kStarts>
-HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const uint32_t* chosen,
-                          size_t chosen_count, float radius, const RayPacket& rays,
-                          const Vector (&axes)[3], PacketHits& hits) {
+HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const Chosen& chosen,
+                          float radius, const RayPacket& rays, const Vector (&axes)[3],
+                          PacketHits& hits) {
   const D d;
   const V r2 = hn::Set(d, radius * radius), zero = hn::Zero(d);
   for (size_t lane = 0; lane < rays.count; lane += hn::Lanes(d)) {
@@ -244,15 +262,14 @@ HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const u
     const V x = fast_dot(o, axes[0]), y = fast_dot(o, axes[1]), z = fast_dot(o, axes[2]);
     const V from = hn::Load(d, rays.from + lane), to = hn::Load(d, rays.to + lane);
     LaneHits found(hits, lane);
-    for (size_t n = 0; n < chosen_count; ++n) {
-      const size_t i = chosen[n];
+    for (size_t n = 0; n < chosen.count; ++n) {
+      const size_t i = chosen.numbers[n];
       const V qx = hn::Set(d, seen.qx[i]), qy = hn::Set(d, seen.qy[i]);
       const V px = hn::Sub(hn::Set(d, seen.px[i]), x), py = hn::Sub(hn::Set(d, seen.py[i]), y);
       const V s0 =
           hn::Mul(hn::NegMulAdd(px, qx, hn::Neg(hn::Mul(py, qy))), hn::Set(d, seen.inverse[i]));
       const V ax = hn::MulAdd(qx, s0, px), ay = hn::MulAdd(qy, s0, py);
       const V room = hn::NegMulAdd(ax, ax, hn::NegMulAdd(ay, ay, r2));
-      if (hn::AllTrue(d, hn::Lt(room, zero))) continue;
       const V shift = hn::Mul(hn::Set(d, seen.shift[i]), hn::Sqrt(hn::Max(room, zero)));
       const V pz = hn::Sub(hn::Set(d, seen.pz[i]), z), qz = hn::Set(d, seen.qz[i]);
       const V s = clamp01(D(), hn::Sub(s0, shift));
@@ -280,7 +297,6 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
                               const RayPacket& rays, SeenIds* ids, PacketHits& hits) {
   const D d;
   SeenCapsules seen;
-  uint32_t chosen[SeenCapsules::most], along[SeenCapsules::most];
   const Vec3 along_rays{rays.along[0], rays.along[1], rays.along[2]};
   Vec3 e, f;
   complete_basis(along_rays, e, f);
@@ -292,8 +308,10 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
   const V low = hn::Set(d, rays.near - wide), high = hn::Set(d, rays.far + wide);
   for (size_t begin = 0; begin < capsules.count; begin += SeenCapsules::most) {
     const size_t end = std::min(capsules.count, begin + SeenCapsules::most);
-    size_t chosen_count = 0, along_count = 0;
-    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    Chosen chosen, along;
+    uint64_t small = 0;  // by number
+    for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
+      const size_t i = begin + at;
       const Vector w = subtract(load(capsules.a, i), centre), ab = load(capsules.ab, i);
       const V px = fast_dot(w, axes[0]), py = fast_dot(w, axes[1]), pz = fast_dot(w, axes[2]);
       const V qx = fast_dot(ab, axes[0]), qy = fast_dot(ab, axes[1]), qz = fast_dot(ab, axes[2]);
@@ -301,16 +319,13 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
       const V inverse = hn::Div(one, hn::Max(qq, tiny));
       const V s = clamp01(D(), hn::Mul(hn::NegMulAdd(px, qx, hn::Neg(hn::Mul(py, qy))), inverse));
       const V vx = hn::MulAdd(qx, s, px), vy = hn::MulAdd(qy, s, py), z1 = hn::Add(pz, qz);
-      const auto is_near =
-          hn::And(hn::Le(hn::MulAdd(vx, vx, hn::Mul(vy, vy)), most),
-                  hn::And(hn::Ge(hn::Max(pz, z1), low), hn::Le(hn::Min(pz, z1), high)));
-      uint64_t bits = bits_of(d, is_near);
-      if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
-      bits = new_ones(capsules.ids + i, bits, ids);
-      if (!bits) continue;
+      auto is_near = hn::And(hn::Ge(hn::Max(pz, z1), low), hn::Le(hn::Min(pz, z1), high));
+      is_near = hn::And(is_near, hn::Le(hn::MulAdd(vx, vx, hn::Mul(vy, vy)), most));
+      is_near = hn::And(is_near, hn::FirstN(d, end - i));
+      chosen.add(at, is_near);
       const V ll = hn::Max(hn::MulAdd(qz, qz, qq), hn::Set(d, min_squared));
-      const uint64_t small = bits_of(d, hn::Lt(qq, hn::Mul(ll, hn::Set(d, min_across))));
-      const size_t at = i - begin;
+      const auto is_small = hn::Lt(qq, hn::Mul(ll, hn::Set(d, min_across)));
+      small |= bits_of(d, hn::And(is_near, is_small)) << at;
       hn::Store(px, d, seen.px + at);
       hn::Store(py, d, seen.py + at);
       hn::Store(pz, d, seen.pz + at);
@@ -319,17 +334,15 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
       hn::Store(qz, d, seen.qz + at);
       hn::Store(inverse, d, seen.inverse + at);
       hn::Store(hn::Mul(qz, hn::Sqrt(hn::Div(inverse, ll))), d, seen.shift + at);
-      for (uint64_t rest = bits & ~small; rest; rest &= rest - 1)
-        chosen[chosen_count++] = static_cast<uint32_t>(at + std::countr_zero(rest));
-      for (uint64_t rest = bits & small; rest; rest &= rest - 1)
-        along[along_count++] = static_cast<uint32_t>(i + std::countr_zero(rest));
     }
+    chosen.drop_seen(capsules.ids + begin, ids);
+    if (HWY_UNLIKELY(small)) chosen.move(small, begin, along);
     if (rays.starts) {
-      meet_seen<true>(seen, capsules.ids + begin, chosen, chosen_count, wide, rays, axes, hits);
-      meet<true>(capsules, along, along_count, wide, corner, rays, hits);
+      meet_seen<true>(seen, capsules.ids + begin, chosen, wide, rays, axes, hits);
+      meet<true>(capsules, along, wide, corner, rays, hits);
     } else {
-      meet_seen<false>(seen, capsules.ids + begin, chosen, chosen_count, wide, rays, axes, hits);
-      meet<false>(capsules, along, along_count, wide, corner, rays, hits);
+      meet_seen<false>(seen, capsules.ids + begin, chosen, wide, rays, axes, hits);
+      meet<false>(capsules, along, wide, corner, rays, hits);
     }
   }
 }
@@ -338,15 +351,15 @@ void meet_list(const CapsuleView& capsules, float radius, const float (&corner)[
                const RayPacket& rays, SeenIds* seen, PacketHits& hits) {
   const float wide = radius + capsule_ray_slack;
   if (rays.is_parallel) return meet_parallel(capsules, wide, corner, rays, seen, hits);
-  constexpr size_t chunk = 256;
-  uint32_t chosen[chunk];
-  for (size_t begin = 0; begin < capsules.count; begin += chunk) {
-    const size_t end = std::min(capsules.count, begin + chunk);
-    const size_t count = near_line(capsules, begin, end, wide, corner, rays, seen, chosen);
+  for (size_t begin = 0; begin < capsules.count; begin += Chosen::most) {
+    const size_t end = std::min(capsules.count, begin + Chosen::most);
+    Chosen chosen;
+    near_line(capsules, begin, end, wide, corner, rays, chosen);
+    chosen.drop_seen(capsules.ids, seen);
     if (rays.starts)
-      meet<true>(capsules, chosen, count, wide, corner, rays, hits);
+      meet<true>(capsules, chosen, wide, corner, rays, hits);
     else
-      meet<false>(capsules, chosen, count, wide, corner, rays, hits);
+      meet<false>(capsules, chosen, wide, corner, rays, hits);
   }
 }
 

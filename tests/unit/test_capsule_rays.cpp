@@ -245,7 +245,7 @@ void counts_a_strut_in_two_lists_once(void**) {
 void parts_find_what_the_whole_does(void**) {
   Random random(7);
   constexpr float radius = 0.1f;
-  for (size_t round = 0; round < test_count(300); ++round) {
+  for (size_t round = 0; round < test_count(10000); ++round) {
     const Vec3 u = direction_of(random);
     const List list(random, 1 + random.below(100), {}, u);
     Packet packet(random, RayPacket::most, 0.1, u, round % 2);

@@ -2,6 +2,7 @@
 #include "structure/foam/rays/cell_lists.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace msq {
 
@@ -106,31 +107,42 @@ CapsuleView CellLists::list(CellIndex cell) {
 /// Finds the bricks whose edges may come near a cell.
 void CellLists::find_bricks(CellIndex cell) {
   const int at[3] = {cell.x, cell.y, cell.z};
-  int own[3], in_own[3], first[3], last[3];
+  int own[3], in_own[3];
   bool is_within_half = true;
   for (size_t axis = 0; axis < 3; ++axis) {
     own[axis] = RayBrick::brick_of(at[axis]);
     in_own[axis] = at[axis] + RayBrick::lead - own[axis] * RayBrick::side;
-    first[axis] = RayBrick::brick_of(at[axis] - reach_[axis]);
-    last[axis] = RayBrick::brick_of(at[axis] + reach_[axis]);
     is_within_half &= reach_[axis] <= RayBrick::side / 2;
   }
-  unsigned owning = 0xff;
-  if (is_within_half)
-    owning = find_brick({own[0], own[1], own[2]})
-                 .edges->owning(foam_->seeds(), radius_, in_own[0], in_own[1], in_own[2]);
   sources_.clear();
+  const auto add = [&](int i, int j, int k) {
+    const Recent& brick = find_brick({i, j, k});
+    const CellIndex corner = brick.edges->corner();
+    const auto edges = brick.edges->list(cell.x - corner.x, cell.y - corner.y, cell.z - corner.z);
+    if (!edges.empty()) sources_.push_back({brick.edges, edges, brick.number << 16});
+  };
+  if (is_within_half) {
+    const RayBrick& brick = *find_brick({own[0], own[1], own[2]}).edges;
+    // Along each axis, the neighbour that is nearer to the cell.
+    int beside[3];
+    for (size_t axis = 0; axis < 3; ++axis)
+      beside[axis] = own[axis] + (2 * in_own[axis] < RayBrick::side ? -1 : 1);
+    for (unsigned rest = brick.owning(foam_->seeds(), radius_, in_own[0], in_own[1], in_own[2]);
+         rest; rest &= rest - 1) {
+      const auto across = static_cast<unsigned>(std::countr_zero(rest));
+      add(across & 1 ? beside[0] : own[0], across & 2 ? beside[1] : own[1],
+          across & 4 ? beside[2] : own[2]);
+    }
+    return;
+  }
+  int first[3], last[3];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    first[axis] = RayBrick::brick_of(at[axis] - reach_[axis]);
+    last[axis] = RayBrick::brick_of(at[axis] + reach_[axis]);
+  }
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j)
-      for (int i = first[0]; i <= last[0]; ++i) {
-        const int across = (i != own[0]) | (j != own[1]) << 1 | (k != own[2]) << 2;
-        if (!(owning >> across & 1)) continue;
-        const Recent& brick = find_brick({i, j, k});
-        const CellIndex corner = brick.edges->corner();
-        const auto edges =
-            brick.edges->list(cell.x - corner.x, cell.y - corner.y, cell.z - corner.z);
-        if (!edges.empty()) sources_.push_back({brick.edges, edges, brick.number << 16});
-      }
+      for (int i = first[0]; i <= last[0]; ++i) add(i, j, k);
 }
 
 void CellLists::make_list(List& list) {
