@@ -32,6 +32,12 @@ inline bool copy_row(const uint64_t* row, size_t words, uint64_t* to) {
   return any != 0;
 }
 
+/// Writes the samples that a row does not have. `last`: the bits of its last word.
+inline void invert_row(const uint64_t* row, size_t words, uint64_t last, uint64_t* to) {
+  for (size_t w = 0; w < words; ++w) to[w] = ~row[w];
+  to[words - 1] &= last;
+}
+
 /// The runs of a word above its seeds, which are a subset of its bits: a sum carries from each seed
 /// to the end of its run.
 inline uint64_t filled_up(uint64_t word, uint64_t seeds) {

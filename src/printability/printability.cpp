@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "printability/bit_row.h"
 #include "printability/components.h"
 #include "printability/thin.h"
 #include "slice/layer_output.h"
@@ -205,8 +206,8 @@ class Inspection {
         return rows;
       case Samples::empty: {
         const uint64_t last = ~uint64_t{0} >> (bits_per_word - 1 - (grid_.nx - 1) % bits_per_word);
-        for (size_t i = begin * words_; i < end * words_; ++i) out[i] = ~rows[i];
-        for (uint64_t j = begin; j < end; ++j) out[(j + 1) * words_ - 1] &= last;
+        for (uint64_t j = begin; j < end; ++j)
+          invert_row(rows + j * words_, words_, last, out + j * words_);
         return out;
       }
       case Samples::thin:
