@@ -2,6 +2,7 @@
 // Rays of a packet in vectors, against single rays: the same bits in all instruction sets.
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -184,11 +185,99 @@ void paths_follow_their_rays(void**) {
   assert_true(taken > 10 * refused);
 }
 
+/// The parts of [0, 1] at which a ray is within `room` of a cell; empty if from > to.
+struct WayInCell {
+  double from = 0, to = 1;
+
+  WayInCell(const PacketPath& path, size_t ray, int slab, const SlabCells& cells,
+            const CrossedCell& cell, double room) {
+    for (int side = 0; side < 2; ++side) {
+      const double slope = path.slope[side][ray], in = path.place[side][ray] + slab * slope;
+      const double low = cell.cell[side] * double(cells.size[side]) - room - in,
+                   high = low + cells.size[side] + 2 * room;
+      if (slope == 0) {
+        if (low > 0 || high < 0) to = -1;
+        continue;
+      }
+      from = std::max(from, std::min(low / slope, high / slope));
+      to = std::min(to, std::max(low / slope, high / slope));
+    }
+  }
+};
+
+/// Rays are always in one of the cells found for them, and cross each of these.
+void rays_cross_the_cells_found(void**) {
+  size_t crossed = 0, all = 0;
+  for_all_instruction_sets(5000, [&](Random& random) {
+    PacketPath path;
+    SlabCells cells;
+    const int slab = static_cast<int>(random.below(4));
+    const auto active = static_cast<uint32_t>(1 + random.below((1u << most) - 1));
+    for (int side = 0; side < 2; ++side) {
+      const double place = random.between(-2, 2), apart = random.between(0, 0.8);
+      const double steep[] = {0, 1e-7, 1e-3, 1, 1, 1, 1};
+      const double slope = steep[random.below(7)] * random.between(-1.2, 1.2);
+      cells.size[side] = static_cast<float>(random.between(0.7, 1.5));
+      float low = 1e30f, high = -1e30f;
+      for (size_t n = 0; n < most; ++n) {
+        path.place[side][n] = static_cast<float>(place + random.between(0, apart));
+        // Some on the planes between cells.
+        if (random.below(8) == 0)
+          path.place[side][n] =
+              std::floor(path.place[side][n] / cells.size[side]) * cells.size[side];
+        path.slope[side][n] = static_cast<float>(slope * random.between(1, 1.02));
+        if (!(active >> n & 1)) continue;
+        const float in = path.place[side][n] + static_cast<float>(slab) * path.slope[side][n];
+        const float out = in + path.slope[side][n];
+        low = std::min(low, std::min(in, out));
+        high = std::max(high, std::max(in, out));
+      }
+      cells.first[side] = static_cast<int32_t>(std::floor(low / cells.size[side]));
+      cells.last[side] = static_cast<int32_t>(std::floor(high / cells.size[side]));
+      if (cells.last[side] - cells.first[side] >= SlabCells::most) return;
+    }
+    CrossedCell found[SlabCells::most * SlabCells::most];
+    const size_t count = find_crossed_cells(path, slab, active, cells, found);
+    all += static_cast<size_t>((cells.last[0] - cells.first[0] + 1) *
+                               (cells.last[1] - cells.first[1] + 1));
+    crossed += count;
+    constexpr double rounding = 1e-5;
+    const auto first = static_cast<size_t>(std::countr_zero(active));
+    const bool is_straight =
+        std::max(std::abs(path.slope[0][first]), std::abs(path.slope[1][first])) < straight;
+    for (size_t c = 0; c < count && !is_straight; ++c) {
+      assert_true(found[c].rays != 0 && (found[c].rays & ~active) == 0);
+      double enter = 1, leave = 0;
+      for (uint32_t rest = found[c].rays; rest; rest &= rest - 1) {
+        const auto n = static_cast<size_t>(std::countr_zero(rest));
+        const WayInCell wide(path, n, slab, cells, found[c], 3e-5);
+        assert_true(wide.from <= wide.to);
+        enter = std::min(enter, wide.from);
+        leave = std::max(leave, wide.to);
+      }
+      assert_true(found[c].enter >= enter - rounding && found[c].leave <= leave + rounding);
+    }
+    for (uint32_t rest = active; rest; rest &= rest - 1) {
+      const auto n = static_cast<size_t>(std::countr_zero(rest));
+      for (int step = 0; step <= 64; ++step) {
+        const double part = step / 64.0;
+        const bool is_seen = std::any_of(found, found + count, [&](const CrossedCell& cell) {
+          const WayInCell way(path, n, slab, cells, cell, rounding);
+          return cell.rays >> n & 1 && way.from <= part && part <= way.to && cell.enter <= part &&
+                 part <= cell.leave;
+        });
+        if (!is_seen) fail_msg("ray %zu is in no cell at %g of its way", n, part);
+      }
+    }
+  });
+  assert_true(crossed < all * 19 / 20);
+}
+
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(rays_have_the_bits_of_single_ones),
-                              cmocka_unit_test(rays_beside_a_ray),
-                              cmocka_unit_test(paths_follow_their_rays)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(rays_have_the_bits_of_single_ones), cmocka_unit_test(rays_beside_a_ray),
+      cmocka_unit_test(paths_follow_their_rays), cmocka_unit_test(rays_cross_the_cells_found)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -198,6 +199,55 @@ SlabCrossing cross(const PacketPath& path, const PathSlab& slab, uint32_t live, 
   return crossing;
 }
 
+size_t crossed(const PacketPath& path, int number, uint32_t active, const SlabCells& cells,
+               CrossedCell* found) {
+  constexpr float room = 1e-5f, least_slope = 1e-6f;
+  constexpr size_t groups = RayPacket::most / hn::MaxLanes(D());
+  const D d;
+  const V begin = hn::Set(d, static_cast<float>(number)), zero = hn::Zero(d),
+          one = hn::Set(d, 1.0f);
+  // Parts of the way in the rows of cells along either axis.
+  V enter[2][SlabCells::most][groups], leave[2][SlabCells::most][groups];
+  for (int side = 0; side < 2; ++side)
+    for (size_t group = 0; group < groups; ++group) {
+      const size_t lane = group * hn::Lanes(d);
+      const V slope = hn::Load(d, path.slope[side] + lane);
+      const V in = hn::MulAdd(slope, begin, hn::Load(d, path.place[side] + lane));
+      const V inverse =
+          hn::Div(one, hn::CopySign(hn::Max(hn::Abs(slope), hn::Set(d, least_slope)), slope));
+      for (int32_t i = cells.first[side]; i <= cells.last[side]; ++i) {
+        const float low = static_cast<float>(i) * cells.size[side];
+        const V p = hn::Mul(hn::Sub(hn::Set(d, low - room), in), inverse);
+        const V q = hn::Mul(hn::Sub(hn::Set(d, low + cells.size[side] + room), in), inverse);
+        enter[side][i - cells.first[side]][group] = hn::Max(hn::Min(p, q), zero);
+        leave[side][i - cells.first[side]][group] = hn::Min(hn::Max(p, q), one);
+      }
+    }
+  size_t count = 0;
+  for (int32_t j = cells.first[1]; j <= cells.last[1]; ++j)
+    for (int32_t i = cells.first[0]; i <= cells.last[0]; ++i) {
+      V first = one, last = zero;
+      uint32_t rays = 0;
+      for (size_t group = 0; group < groups; ++group) {
+        const size_t lane = group * hn::Lanes(d);
+        const V from =
+            hn::Max(enter[0][i - cells.first[0]][group], enter[1][j - cells.first[1]][group]);
+        const V to =
+            hn::Min(leave[0][i - cells.first[0]][group], leave[1][j - cells.first[1]][group]);
+        const auto crosses = hn::And(hn::Le(from, to), lanes_of(d, active >> lane));
+        rays |= static_cast<uint32_t>(bits_of(d, crosses)) << lane;
+        first = hn::Min(first, hn::IfThenElse(crosses, from, one));
+        last = hn::Max(last, hn::IfThenElseZero(crosses, to));
+      }
+      if (!rays) continue;
+      found[count++] = {{i, j},
+                        rays,
+                        hn::GetLane(hn::MinOfLanes(d, first)),
+                        hn::GetLane(hn::MaxOfLanes(d, last))};
+    }
+  return count;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
@@ -210,6 +260,7 @@ HWY_EXPORT(choose);
 HWY_EXPORT(place);
 HWY_EXPORT(may_meet);
 HWY_EXPORT(cross);
+HWY_EXPORT(crossed);
 
 bool set_course(const PacketRays& rays, uint32_t live, Vec3 scale, PacketCourse& course,
                 RayPacket& packet) {
@@ -229,6 +280,21 @@ uint32_t who_may_meet(const PacketRays& rays, int slab, const PacketHits& hits, 
 SlabCrossing cross_slab(const PacketPath& path, const PathSlab& slab, uint32_t live,
                         RayPacket& packet) {
   return HWY_DYNAMIC_DISPATCH(cross)(path, slab, live, packet);
+}
+
+size_t find_crossed_cells(const PacketPath& path, int number, uint32_t active,
+                          const SlabCells& cells,
+                          CrossedCell (&found)[SlabCells::most * SlabCells::most]) {
+  const auto one = static_cast<size_t>(std::countr_zero(active));
+  // These cross few cells: to find out which takes as long as to look at all.
+  if (std::max(std::abs(path.slope[0][one]), std::abs(path.slope[1][one])) < straight) {
+    size_t count = 0;
+    for (int32_t j = cells.first[1]; j <= cells.last[1]; ++j)
+      for (int32_t i = cells.first[0]; i <= cells.last[0]; ++i)
+        found[count++] = {{i, j}, active, 0, 1};
+    return count;
+  }
+  return HWY_DYNAMIC_DISPATCH(crossed)(path, number, active, cells, found);
 }
 
 }  // namespace msq

@@ -71,6 +71,30 @@ struct SlabCrossing {
 SlabCrossing cross_slab(const PacketPath& path, const PathSlab& slab, uint32_t live,
                         RayPacket& packet);
 
+/// Cells of a slab: numbers along the two other axes, inclusive, at most `most` along each; and
+/// their size.
+struct SlabCells {
+  static constexpr int most = 4;
+  int32_t first[2], last[2];
+  float size[2];
+};
+
+struct CrossedCell {
+  int32_t cell[2];
+  uint32_t rays;  ///< that cross it
+  /// The parts of their way through the slab where the first one enters and the last one leaves.
+  float enter, leave;
+};
+
+/// Writes those of the cells that active rays cross in slab `number`, and returns how many they
+/// are: all of them, as if crossed from end to end by all rays, if the slope of the first one is
+/// below `straight`. The active rays are in the cells. A point of a ray that no cell found seems to
+/// contain is within 1e-5 of one.
+constexpr float straight = 1e-3f;
+size_t find_crossed_cells(const PacketPath& path, int number, uint32_t active,
+                          const SlabCells& cells,
+                          CrossedCell (&found)[SlabCells::most * SlabCells::most]);
+
 /// Sets path.last of the rays `active` in a slab, and returns those that may meet a strut up to
 /// there. `seen`: the part of their way through the slab that the sieve has seen, infinite for all
 /// of it.

@@ -65,10 +65,6 @@ class Walker {
 
  private:
   static constexpr size_t most = RayPacket::most;
-  struct Coming {
-    float at, last;
-    int32_t i, j;
-  };
   /// Maximum distance between rays of a packet, across it, in foam units, and maximum difference of
   /// their directions.
   static constexpr double max_apart = 0.9, max_turned = 0.05;
@@ -76,8 +72,6 @@ class Walker {
   static constexpr int min_packet = 12;
   /// Maximum error of rays, foam units: some thousand cells from the origin.
   static constexpr double max_sure_error = 0x1p-38;
-  /// Maximum number of cells across a slab for a packet; a wider packet continues ray by ray.
-  static constexpr int max_across = 4;
 
   /// Takes rays from i on as those that packets consist of.
   void set_up(size_t i, size_t count) {
@@ -195,14 +189,15 @@ class Walker {
       number = 0;
     }
     uint32_t active = crossing.active;
-    int32_t first[2], last[2];
+    SlabCells cells;
     for (int side = 0; side < 2; ++side) {
-      const float size = static_cast<float>(scale_[lateral[side]]);
+      cells.size[side] = static_cast<float>(scale_[lateral[side]]);
       // Roundings are within the margin of the lists.
-      first[side] = static_cast<int32_t>(std::floor(crossing.low[side] / size));
-      last[side] = static_cast<int32_t>(std::floor(crossing.high[side] / size));
+      cells.first[side] = static_cast<int32_t>(std::floor(crossing.low[side] / cells.size[side]));
+      cells.last[side] = static_cast<int32_t>(std::floor(crossing.high[side] / cells.size[side]));
+      // A wider packet continues ray by ray.
+      if (cells.last[side] - cells.first[side] >= SlabCells::most) return false;
     }
-    if (last[0] - first[0] >= max_across || last[1] - first[1] >= max_across) return false;
 
     if (!asks_once_) hits_.clear();
     slots_.clear();
@@ -213,55 +208,40 @@ class Walker {
     }
     // Length of the packet's line in the slab.
     const float rise = static_cast<float>(scale_[k]) / std::abs(packet_.along[k]);
-    // Cells in the order in which the packet reaches them; rays usually end in the first ones.
-    order_.clear();
-    for (int32_t j = first[1]; j <= last[1]; ++j)
-      for (int32_t i = first[0]; i <= last[0]; ++i)
-        if (Coming coming{0, 1, i, j}; comes_to(coming, rise)) order_.push_back(coming);
-    std::sort(order_.begin(), order_.end(),
-              [](const Coming& x, const Coming& y) { return x.at < y.at; });
+    // Cells in the order in which rays reach them; rays usually end in the first ones.
+    CrossedCell order[SlabCells::most * SlabCells::most];
+    CrossedCell* const end = order + find_crossed_cells(path_, number, active, cells, order);
+    std::sort(order, end,
+              [](const CrossedCell& x, const CrossedCell& y) { return x.enter < y.enter; });
+    // The first of the cells from one on that an active ray crosses.
+    const auto find_next = [&](const CrossedCell* from) {
+      while (from < end && !(from->rays & active)) ++from;
+      return from;
+    };
     // If a ray and the centre are in one plane of the slab, the centre may be behind by this.
     const float behind =
         packet_.spread * std::sqrt(std::max(0.0f, 1 - packet_.along[k] * packet_.along[k])) +
         static_cast<float>(ray_list_margin);
-    for (size_t c = 0; c < order_.size() && active; ++c) {
-      packet_.near = order_[c].at * rise - behind;
-      packet_.far = order_[c].last * rise + behind;
-      const Slot& slot = add_slot(order_[c], slab);
-      meet_capsules(slot.list, slot.radius + room_, slot.corner, packet_,
-                    asks_once_ ? &seen_ : nullptr, hits_);
-      const bool is_last = c + 1 == order_.size();
-      // The other cells contain nothing that the ray may meet before.
-      const double seen =
-          is_last ? std::numeric_limits<double>::infinity() : double(order_[c + 1].at);
-      const uint32_t near = who_may_meet(rays_, number, hits_, active, seen, path_);
-      const uint32_t settled = settle(near);
+    for (const CrossedCell* cell = order; active;) {
+      double seen = std::numeric_limits<double>::infinity();
+      if (cell < end) {
+        packet_.near = cell->enter * rise - behind;
+        packet_.far = cell->leave * rise + behind;
+        const Slot& slot = add_slot(*cell, slab);
+        meet_capsules(slot.list, slot.radius + room_, slot.corner, packet_,
+                      asks_once_ ? &seen_ : nullptr, hits_);
+        cell = find_next(cell + 1);
+        // Active rays meet nothing more before they enter the next cell.
+        if (cell < end) seen = double(cell->enter);
+      }
+      const uint32_t settled = settle(who_may_meet(rays_, number, hits_, active, seen, path_));
       active &= ~settled;
       live_ &= ~settled;
       for (uint32_t rest = settled; rest; rest &= rest - 1) packet_.to[std::countr_zero(rest)] = -1;
+      if (seen == std::numeric_limits<double>::infinity()) break;
+      cell = find_next(cell);
     }
     return true;
-  }
-
-  /// Whether the packet may be in the cell (i, j) relative to the base along the two other axes,
-  /// and in which part of its way through the slab.
-  bool comes_to(Coming& coming, float rise) const {
-    const int32_t cell[2] = {coming.i, coming.j};
-    float low = 0, high = 1;
-    for (int side = 0; side < 2; ++side) {
-      const int axis = (course_.axis + 1 + side) % 3;
-      const float size = static_cast<float>(scale_[axis]), room = packet_.spread + 1e-5f;
-      const float from = packet_.centre[axis], by = packet_.along[axis] * rise;
-      const float begin = static_cast<float>(cell[side]) * size - room - from;
-      const float end = begin + size + 2 * room;
-      if (std::abs(by) < 1e-3f) continue;
-      const float p = begin / by, q = end / by;
-      low = std::max(low, std::min(p, q) - 1e-4f);
-      high = std::min(high, std::max(p, q) + 1e-4f);
-    }
-    coming.at = low;
-    coming.last = high;
-    return low <= high;
   }
 
   /// The list of a cell, for one slab.
@@ -271,17 +251,17 @@ class Walker {
     float radius;  // maximum radius there
   };
 
-  const Slot& add_slot(const Coming& coming, int32_t slab) {
+  const Slot& add_slot(const CrossedCell& crossed, int32_t slab) {
     const int k = course_.axis, a = (k + 1) % 3, b = (k + 2) % 3;
     int32_t cell[3];
     cell[k] = slab;
-    cell[a] = base_[0] + coming.i;
-    cell[b] = base_[1] + coming.j;
+    cell[a] = base_[0] + crossed.cell[0];
+    cell[b] = base_[1] + crossed.cell[1];
     Slot& slot = slots_.emplace_back();
     slot.list = memory_.struts.list({cell[0], cell[1], cell[2]});
     slot.corner[k] = static_cast<float>((slab - base_slab_) * scale_[k]);
-    slot.corner[a] = static_cast<float>(coming.i * scale_[a]);
-    slot.corner[b] = static_cast<float>(coming.j * scale_[b]);
+    slot.corner[a] = static_cast<float>(crossed.cell[0] * scale_[a]);
+    slot.corner[b] = static_cast<float>(crossed.cell[1] * scale_[b]);
     slot.radius = struts_.radius_in({cell[0], cell[1], cell[2]});
     if (slot.radius < 0) slot.list.count = 0;
     return slot;
@@ -379,7 +359,6 @@ class Walker {
   // Relative to the base.
   PacketHits hits_;
   SeenIds seen_;
-  std::vector<Coming> order_;
   std::vector<Slot> slots_;
   FirstEntry first_;
 };
