@@ -243,8 +243,8 @@ void rays_cross_the_cells_found(void**) {
     crossed += count;
     constexpr double rounding = 1e-5;
     const auto first = static_cast<size_t>(std::countr_zero(active));
-    const bool is_straight =
-        std::max(std::abs(path.slope[0][first]), std::abs(path.slope[1][first])) < straight;
+    const bool is_straight = std::max(std::abs(path.slope[0][first]),
+                                      std::abs(path.slope[1][first])) < least_crossing_slope;
     for (size_t c = 0; c < count && !is_straight; ++c) {
       assert_true(found[c].rays != 0 && (found[c].rays & ~active) == 0);
       double enter = 1, leave = 0;

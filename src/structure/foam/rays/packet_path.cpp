@@ -287,7 +287,7 @@ size_t find_crossed_cells(const PacketPath& path, int number, uint32_t active,
                           CrossedCell (&found)[SlabCells::most * SlabCells::most]) {
   const auto one = static_cast<size_t>(std::countr_zero(active));
   // These cross few cells: to find out which takes as long as to look at all.
-  if (std::max(std::abs(path.slope[0][one]), std::abs(path.slope[1][one])) < straight) {
+  if (std::max(std::abs(path.slope[0][one]), std::abs(path.slope[1][one])) < least_crossing_slope) {
     size_t count = 0;
     for (int32_t j = cells.first[1]; j <= cells.last[1]; ++j)
       for (int32_t i = cells.first[0]; i <= cells.last[0]; ++i)

@@ -86,11 +86,12 @@ struct CrossedCell {
   float enter, leave;
 };
 
+/// The least slope, per slab, with which it pays to find out which rays cross which cells.
+constexpr float least_crossing_slope = 1e-3f;
 /// Writes those of the cells that active rays cross in slab `number`, and returns how many they
-/// are: all of them, as if crossed from end to end by all rays, if the slope of the first one is
-/// below `straight`. The active rays are in the cells. A point of a ray that no cell found seems to
-/// contain is within 1e-5 of one.
-constexpr float straight = 1e-3f;
+/// are: all of them, as if crossed from end to end by all rays, if the first one is less steep than
+/// that. The active rays are in the cells. A point of a ray that no cell found seems to contain is
+/// within 1e-5 of one.
 size_t find_crossed_cells(const PacketPath& path, int number, uint32_t active,
                           const SlabCells& cells,
                           CrossedCell (&found)[SlabCells::most * SlabCells::most]);
