@@ -17,24 +17,13 @@
 #include <bit>
 
 #include "strut/raster_target.h"
+#include "strut/row_order-inl.h"
 #include "strut/strut_batch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using FullLanes = hn::ScalableTag<float>;
-
-/// How vectors cover the rows and layers of a strut: shape s puts lanes / 2^s of the lanes of a
-/// vector on rows, and fills it with layers.
-constexpr size_t max_shapes = 3;
-template <class D>
-HWY_INLINE size_t shapes(D d, const RasterTarget& target) {
-  const size_t lanes = hn::Lanes(d);
-  if (!(target.dz > 0) || lanes < 4) return 1;  // layers one by one
-  return std::min<size_t>(max_shapes, static_cast<size_t>(std::countr_zero(lanes)));
-}
 
 struct StrutSetups {
   enum Kernel : int32_t { none = 0, general = 1, few = 2, fast = 3 };
@@ -45,17 +34,22 @@ struct StrutSetups {
 
   int32_t kernel[room];  // none: meets no row of the target
   int32_t j0[room], j1[room], k0[room], k1[room];
-  int32_t shape[room], row_vectors[room], vectors[room];  // for all rows; for all rows and layers
+  RowOrders<room> order;
   int32_t column[room];                  // an integer near the end a: the origin of column numbers
   int32_t clipped[room];                 // by the first or the last column
   float first[room], last[room];         // columns of the target
   float a_column[room], b_column[room];  // of the ends
-  float v[room], w[room];                // of row j0 and layer k0, in y and z, from a
-  float dy[room], dz[room];              // from a to b
-  float ux[room], uy[room], uz[room], length[room];  // axis
-  float signed_ux2[room];                            // ux |ux|
-  float inverse_across[room];                        // 1 / (uy^2 + uz^2)
-  float high2[room], low2[room];                     // squared radii; low2 negative: no inner span
+  // Linear in the place of a row: what it is at the first row, and steps in a line and from line to
+  // line. g and k / A, see fast_spans-inl.h; and y and z, from a.
+  struct Steps {
+    float first[room], inner[room], outer[room];
+  } g, cross, v, w;
+  float g_of_w[room], cross_of_w[room];      // steps if layers are anywhere
+  float dy[room], dz[room];                  // from a to b
+  float ux[room], length[room];              // axis
+  float signed_ux2[room];                    // ux |ux|
+  float across[room], inverse_across[room];  // A = uy^2 + uz^2
+  float high2[room], low2[room];             // squared radii; low2 negative: no inner span
   // Of a linear radius: its gradient, its value at a, and what it may differ by along a row: a
   // number and, for each axis, a part of the distance from the strut's middle.
   float gradient[3][room], radius_a[room], departure[room], spread[3][room];
@@ -92,27 +86,6 @@ HWY_INLINE void index_range(D d, const double* values, size_t count, V low, V hi
   end = hn::Load(d, bounds[1]);
 }
 
-/// The shape that needs the fewest vectors for that many rows and layers.
-template <class D, class V = hn::Vec<D>>
-struct ChosenLayout {
-  V shape, row_vectors, vectors;
-};
-template <class D, class DF, class V = hn::Vec<D>>
-HWY_INLINE ChosenLayout<D> layout(D d, DF df, const RasterTarget& target, V rows, V layers) {
-  ChosenLayout<D> best{hn::Zero(d), hn::Zero(d), hn::Set(d, 1e300)};
-  for (size_t s = 0; s < shapes(df, target); ++s) {
-    const double deep = static_cast<double>(size_t{1} << s);
-    const double wide = static_cast<double>(hn::Lanes(df)) / deep;
-    const V across = hn::Ceil(hn::Mul(rows, hn::Set(d, 1 / wide)));
-    const V vectors = hn::Mul(across, hn::Ceil(hn::Mul(layers, hn::Set(d, 1 / deep))));
-    const auto fewer = hn::Lt(vectors, best.vectors);
-    best.shape = hn::IfThenElse(fewer, hn::Set(d, static_cast<double>(s)), best.shape);
-    best.row_vectors = hn::IfThenElse(fewer, across, best.row_vectors);
-    best.vectors = hn::Min(vectors, best.vectors);
-  }
-  return best;
-}
-
 HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batch,
                               StrutSetups& setups) {
   using D = hn::ScalableTag<double>;
@@ -125,7 +98,6 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
   const V shift = hn::Mul(margin, scale);
   constexpr double u = 0x1p-24;
   const double step = std::max(target.dy, target.dz) * target.inverse_dx;
-  const bool grid_fits = target.layers * target.layer_words < (size_t{1} << 25);  // 2^31 bits
 
   for (size_t i = 0; i < batch.count; i += hn::Lanes(d)) {
     const V ax = hn::LoadU(d, batch.a[0] + i), ay = hn::LoadU(d, batch.a[1] + i),
@@ -145,7 +117,7 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
       z_first = hn::Add(hn::Set(d, target.z[0]), hn::Mul(k0, hn::Set(d, target.dz)));
     } else {
       index_range(d, target.z, target.layers, z_low, z_high, k0, k1);
-      z_first = zero;  // the kernel reads it from a table
+      z_first = az;  // the kernel reads it from a table
     }
     const V y_first = hn::Add(hn::Set(d, target.y[0]), hn::Mul(j0, hn::Set(d, target.dy)));
 
@@ -162,8 +134,8 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     const V b_column = hn::Add(fraction, dx);
 
     // See fast_spans-inl.h.
-    const V across_error = hn::Mul(hn::Mul(whole, r), hn::Set(d, 32 * u));
-    const V ru = hn::Mul(whole, hn::Set(d, 14 * u)), both = hn::Add(ru, shift);
+    const V across_error = hn::Mul(hn::Mul(whole, r), hn::Set(d, 44 * u));
+    const V ru = hn::Mul(whole, hn::Set(d, 17 * u)), both = hn::Add(ru, shift);
     const V squared_error =
         hn::Mul(inverse_across, hn::MulAdd(inverse_across, hn::MulAdd(both, both, across_error),
                                            hn::Mul(hn::Set(d, 2.0), hn::Mul(r, shift))));
@@ -177,7 +149,7 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     // If the radius is linear, its value at a sample and its bounds have an error, too.
     const V room = hn::Mul(choice, hn::Set(d, batch.linear ? 2.0 : 1.0));
     const V error = hn::Mul(squared_error, room);
-    const V end_error = hn::MulAdd(hn::Set(d, 32 * u), hn::MulAdd(whole, inverse_across, one),
+    const V end_error = hn::MulAdd(hn::Set(d, 33 * u), hn::MulAdd(whole, inverse_across, one),
                                    hn::Set(d, target.slack));
 
     const V reach = hn::Add(hn::Add(r, shift), one);
@@ -196,14 +168,17 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     serves = hn::And(serves, hn::Gt(whole, hn::Set(d, 1e-6)));
     serves = hn::And(serves, hn::Lt(whole, hn::Set(d, 65536.0)));
     serves = hn::And(serves, hn::Lt(hn::Abs(column), hn::Set(d, 0x1p30)));
-    const auto chosen = layout(d, FullLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
+    const V v = hn::Mul(hn::Sub(y_first, ay), scale), w = hn::Mul(hn::Sub(z_first, az), scale);
+    RowOrder<D> order(d, target, hn::Sub(j1, j0), hn::Sub(k1, k0));
+    order.follow_axis(d, target, v, w, dy, dz, hn::Add(r, shift));
+    serves = hn::And(serves, order.fits(d));
     const double most =
         hn::Lanes(FullLanes()) < 16 ? StrutSetups::max_few : StrutSetups::max_few / 2;
-    const auto is_few = hn::Le(chosen.vectors, hn::Set(d, most));
+    const auto is_few = hn::Le(order.vectors(d), hn::Set(d, most));
     const auto fast = hn::IfThenElse(is_few, hn::Set(d, double{StrutSetups::few}),
                                      hn::Set(d, double{StrutSetups::fast}));
     V kernel = hn::Set(d, double{StrutSetups::general});
-    if (grid_fits) kernel = hn::IfThenElse(serves, fast, kernel);
+    if (RowOrder<D>::fits(target)) kernel = hn::IfThenElse(serves, fast, kernel);
     kernel = hn::IfThenElseZero(meets, kernel);
     const V least = hn::Sub(hn::Min(a_column, hn::Add(a_column, dx)), reach);
     const V greatest = hn::Add(hn::Max(a_column, hn::Add(a_column, dx)), reach);
@@ -216,9 +191,7 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     const V bound = hn::Set(d, 0x1p23);
     const auto near = [&](V value) { return hn::Min(hn::Max(value, hn::Neg(bound)), bound); };
     put_index(kernel, setups.kernel);
-    put_index(chosen.shape, setups.shape);
-    put_index(chosen.row_vectors, setups.row_vectors);
-    put_index(hn::Min(chosen.vectors, hn::Set(d, 0x1p30)), setups.vectors);
+    setups.order.set(d, order, i);
     put_index(hn::IfThenElseZero(clipped, one), setups.clipped);
     put_index(j0, setups.j0);
     put_index(j1, setups.j1);
@@ -229,17 +202,24 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(b_column, setups.b_column);
     put(near(hn::Neg(column)), setups.first);
     put(near(hn::Sub(hn::Set(d, target.last), column)), setups.last);
-    put(hn::Mul(hn::Sub(y_first, ay), scale), setups.v);
-    put(hn::Mul(hn::Sub(z_first, az), scale), setups.w);
-    put(dy, setups.dy);
-    put(dz, setups.dz);
     const V ux = hn::Mul(dx, inverse_length);
     put(ux, setups.ux);
     put(hn::Mul(ux, along), setups.signed_ux2);
-    put(hn::Mul(dy, inverse_length), setups.uy);
-    put(hn::Mul(dz, inverse_length), setups.uz);
     put(length, setups.length);
+    put(hn::Mul(across2, hn::Mul(inverse_length, inverse_length)), setups.across);
     put(inverse_across, setups.inverse_across);
+    const V along_of_y = hn::Mul(hn::Mul(dy, inverse_length), inverse_across),
+            along_of_z = hn::Mul(hn::Mul(dz, inverse_length), inverse_across);
+    const auto put_steps = [&](V of_y, V of_z, StrutSetups::Steps& out) {
+      const auto at = [&](V y, V z) { return hn::MulAdd(of_y, y, hn::Mul(of_z, z)); };
+      put(at(v, w), out.first);
+      put(at(order.inner_dy, order.inner_dz), out.inner);
+      put(at(order.outer_dy, order.outer_dz), out.outer);
+    };
+    put_steps(along_of_y, along_of_z, setups.g);
+    put_steps(along_of_z, hn::Neg(along_of_y), setups.cross);
+    put(along_of_z, setups.g_of_w);
+    put(hn::Neg(along_of_y), setups.cross_of_w);
     put(hn::Mul(r, r), setups.high2);
     const V thin = hn::Mul(low, scale);
     put(hn::IfThenElse(hn::Gt(thin, zero), hn::Mul(thin, thin), hn::Set(d, -1.0)), setups.low2);
@@ -247,6 +227,10 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(hn::Sqrt(hn::Mul(error, hn::Set(d, 1.01))), setups.root_error);
     put(end_error, setups.end_error);
     if (!batch.linear) continue;
+    put_steps(one, zero, setups.v);
+    put_steps(zero, one, setups.w);
+    put(dy, setups.dy);
+    put(dz, setups.dz);
     const V generously = hn::Set(d, 1.01);
     const V along_row = hn::Mul(r, hn::Sqrt(inverse_across));
     const V slopes =

@@ -85,7 +85,8 @@ struct FrustumSetups {
       return hn::Neg(low_of(hn::Neg(from), hn::Neg(to), component));
     };
     rows.set(target, ax, ay, az, low_of(ay, by, ax_y), high_of(ay, by, ax_y), low_of(az, bz, ax_z),
-             high_of(az, bz, ax_z), whole, is_there, serves);
+             high_of(az, bz, ax_z), dy, dz, hn::MulAdd(num(4), margin, most), whole, is_there,
+             serves);
 
     // Those that are not served may be anything.
     const V s_used = hn::IfThenElse(serves, s, one), inverse_s = hn::Div(one, s_used);
@@ -190,7 +191,7 @@ struct BallSetups {
     const auto serves = hn::Lt(margin, hn::Mul(r, num(1e-3)));
     const auto is_there = holds_parts(d, batch, i);
     rows.set(target, x, y, z, hn::Sub(y, thick), hn::Add(y, thick), hn::Sub(z, thick),
-             hn::Add(z, thick), r, is_there, serves);
+             hn::Add(z, thick), zero, zero, r, r, is_there, serves);
     const auto is_whole =
         hn::Eq(hn::MulAdd(out_x, out_x, hn::MulAdd(out_y, out_y, hn::Mul(out_z, out_z))), zero);
     const V over_x = parts::inverse_slope(out_x), ur = hn::Mul(u, r);

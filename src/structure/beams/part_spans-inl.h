@@ -17,10 +17,9 @@
 // Bounds, where P is the larger radius and U = length + P. Rows that meet the frustum have |R| <= Q
 // = P (1 + |K| / sqrt(A)), since the line meets it within P / sqrt(A) of the nearest point; other
 // rows are left out.
-// - v and w err by 6 u U (strut/strut_setup-inl.h), m and k by 12 u U, g by 17 u U / A, as |m| is
-// at
-//   most 1.5 U. R errs by eR = 26 u U |K| / A + 3 u P and by d (1 + |K|) more, since moving a point
-//   by d moves it along the axis and across.
+// - v and w err by 6 u U, m and k by 12 u U, g by 17 u U / A, as |m| is at most 1.5 U. R errs by
+//   eR = 26 u U |K| / A + 3 u P and by d (1 + |K|) more, since moving a point by d moves it along
+//   the axis and across.
 // - q = sqrt(S) k / A errs by eq = 12 u U sqrt(S) / A + 3 u Q. So E = R^2 - q^2 errs by
 //   F = 2 Q (eR + eq) + eR^2 + eq^2 + 4 u Q^2: above F the line meets the cone, below -F it misses
 //   it. Its root errs by at most F / (max(root, sqrt(F)) - 0.3 sqrt(F)).
@@ -74,17 +73,20 @@ struct alignas(64) Indices {
 /// Which rows a vector of parts may meet, and how their columns count.
 struct RowSetups {
   enum Kernel : int32_t { none = 0, general = 1, fast = 2 };
-  Indices kernel, j0, j1, k0, k1, shape, row_vectors, vectors;
+  RowOrders<max_simd_doubles> order;
+  Indices kernel, j0, k0;
   Indices column;      // a whole one near the part's origin: columns count from it
   Floats first, last;  // columns of the target
   Floats origin;       // column of the part's origin
   Floats v, w;         // of row j0 and layer k0, in y and z, from the origin
 
-  /// For parts from `x`, `y`, `z` on that lie in y_low to y_high and z_low to z_high and are
-  /// `size` columns long at most. `serves`: whether the kernel's bounds hold; false of none of
-  /// those that are not there.
+  /// For parts from `x`, `y`, `z` on that lie in y_low to y_high and z_low to z_high, within
+  /// `reach` of an axis along (dy, dz), and are `size` columns long at most; the last four in
+  /// columns. `serves`: whether the kernel's bounds hold; false of none of those that are not
+  /// there.
   HWY_INLINE void set(const RasterTarget& target, V x, V y, V z, V y_low, V y_high, V z_low,
-                      V z_high, V size, hn::Mask<D> is_there, hn::Mask<D> serves) {
+                      V z_high, V dy, V dz, V reach, V size, hn::Mask<D> is_there,
+                      hn::Mask<D> serves) {
     const D d;
     const V zero = hn::Zero(d), scale = hn::Set(d, target.inverse_dx);
     V first_j, end_j, first_k, end_k, z_first = zero;
@@ -107,19 +109,18 @@ struct RowSetups {
     serves = hn::And(serves, hn::Gt(size, hn::Set(d, 1e-6)));
     serves = hn::And(serves, hn::Lt(size, hn::Set(d, 65536.0)));
     serves = hn::And(serves, hn::Lt(hn::Abs(whole), hn::Set(d, 0x1p30)));
-    const bool grid_fits = target.layers * target.layer_words < (size_t{1} << 25);  // 2^31 bits
+    const V from_y = hn::Mul(hn::Sub(y_first, y), scale),
+            from_z = hn::Mul(hn::Sub(z_first, z), scale);
+    RowOrder<D> rows(d, target, hn::Sub(end_j, first_j), hn::Sub(end_k, first_k));
+    rows.follow_axis(d, target, from_y, from_z, dy, dz, reach);
+    serves = hn::And(serves, rows.fits(d));
+    order.set(d, rows, 0);
     V chosen = hn::Set(d, double{general});
-    if (grid_fits) chosen = hn::IfThenElse(serves, hn::Set(d, double{fast}), chosen);
+    if (RowOrder<D>::fits(target))
+      chosen = hn::IfThenElse(serves, hn::Set(d, double{fast}), chosen);
     kernel.set(hn::IfThenElseZero(meets, chosen));
-    const auto rows =
-        layout(d, FullLanes(), target, hn::Sub(end_j, first_j), hn::Sub(end_k, first_k));
-    shape.set(rows.shape);
-    row_vectors.set(rows.row_vectors);
-    vectors.set(hn::Min(rows.vectors, hn::Set(d, 0x1p30)));
     j0.set(first_j);
-    j1.set(end_j);
     k0.set(first_k);
-    k1.set(end_k);
     const V bound = hn::Set(d, 0x1p23);
     const auto near = [&](V value)
                           HWY_ATTR { return hn::Min(hn::Max(value, hn::Neg(bound)), bound); };
@@ -127,8 +128,8 @@ struct RowSetups {
     first.set(near(hn::Neg(whole)));
     last.set(near(hn::Sub(hn::Set(d, target.last), whole)));
     origin.set(hn::Sub(place, whole));
-    v.set(hn::Mul(hn::Sub(y_first, y), scale));
-    w.set(hn::Mul(hn::Sub(z_first, z), scale));
+    v.set(from_y);
+    w.set(from_z);
   }
 };
 
@@ -165,9 +166,7 @@ class RowDrawing {
         doubts_(doubts),
         buffer_(target.certain),
         row_step_(static_cast<float>(target.dy * target.inverse_dx)),
-        layer_step_(static_cast<float>(target.dz * target.inverse_dx)) {
-    make_shapes(F(), target, shapes_);
-  }
+        layer_step_(static_cast<float>(target.dz * target.inverse_dx)) {}
 
   /// kernel(v, w) answers Ends for rows at these offsets from the part's origin, whose z is given.
   template <class Kernel>
@@ -176,31 +175,27 @@ class RowDrawing {
     const F d;
     const hn::RebindToSigned<F> di;
     using VI = hn::Vec<decltype(di)>;
-    const LaneShape& shape = shapes_[setups.shape.of[i]];
     const auto index = [&](const Indices& values) { return static_cast<size_t>(values.of[i]); };
     const auto set = [&](const Floats& values) HWY_ATTR { return hn::Set(d, values.of[i]); };
+    const RowVectors rows(setups.order, i);
     const size_t j0 = index(setups.j0), k0 = index(setups.k0);
-    const VF rows = hn::Set(d, static_cast<float>(setups.j1.of[i] - setups.j0.of[i]));
-    const VF layers = hn::Set(d, static_cast<float>(setups.k1.of[i] - setups.k0.of[i]));
-    const VF lane_row = hn::Load(d, shape.row), lane_layer = hn::Load(d, shape.layer);
-    const VI lane_bit = hn::Load(di, shape.bit);
+    const size_t at = k0 * target_.layer_words + j0 * target_.row_words;
+    const auto first_bit = static_cast<uint32_t>(at * bits_per_word) +
+                           static_cast<uint32_t>(setups.column.of[i]) - 0x4b400000u;
     const VF v0 = set(setups.v), w0 = set(setups.w);
     const VF first = set(setups.first), last = set(setups.last);
     const VF row_step = hn::Set(d, row_step_), layer_step = hn::Set(d, layer_step_);
-    const size_t across = shape.wide * index(setups.row_vectors);
-    size_t j = 0, k = 0;
-    for (size_t vector = index(setups.vectors); vector > 0; --vector, j += shape.wide) {
-      if (j == across) {
-        j = 0;
-        k += shape.deep;
-      }
-      const VF row = hn::Add(lane_row, hn::Set(d, static_cast<float>(j)));
-      const VF layer = hn::Add(lane_layer, hn::Set(d, static_cast<float>(k)));
-      const auto in = hn::And(hn::Lt(row, rows), hn::Lt(layer, layers));
+    const auto vectors = static_cast<size_t>(setups.order.vectors[i]);
+    for (size_t vector = 0; vector < vectors; ++vector) {
+      VF inner, outer;
+      const auto in = rows.find(vector, inner, outer);
+      const VF row = rows.row(inner, outer), layer = rows.layer(inner, outer);
       const VF v = hn::MulAdd(row, row_step, v0);
       VF w = hn::MulAdd(layer, layer_step, w0);
-      if (!(target_.dz > 0))
-        w = hn::Set(d, static_cast<float>((target_.z[k0 + k] - origin_z) * target_.inverse_dx));
+      if (!(target_.dz > 0)) {
+        const size_t k = k0 + static_cast<size_t>(hn::GetLane(layer));
+        w = hn::Set(d, static_cast<float>((target_.z[k] - origin_z) * target_.inverse_dx));
+      }
       Ends ends;
       kernel(v, w, ends);
       const auto met = hn::And(in, ends.met);
@@ -215,17 +210,15 @@ class RowDrawing {
       // A whole number below 2^22 plus 1.5 * 2^23 has it in its last bits.
       const VF whole = hn::Set(d, 0x1.8p23f);
       const VI from = hn::BitCast(di, hn::Add(i0, whole)), to = hn::BitCast(di, hn::Add(i1, whole));
-      const size_t at = (k0 + k) * target_.layer_words + (j0 + j) * target_.row_words;
-      const uint32_t bit = static_cast<uint32_t>(at * bits_per_word) +
-                           static_cast<uint32_t>(setups.column.of[i]) - 0x4b400000u;
-      buffer_.add(di, hn::Add(hn::Add(from, lane_bit), hn::Set(di, static_cast<int32_t>(bit))),
-                  hn::Sub(to, from), hn::RebindMask(di, sure));
+      const VI start = hn::Add(from, hn::Set(di, static_cast<int32_t>(first_bit)));
+      buffer_.add(di, hn::Add(start, rows.bits(inner, outer)), hn::Sub(to, from),
+                  hn::RebindMask(di, sure));
 
       const auto decided = hn::And(sure, hn::And(hn::Eq(x0, i0), hn::Eq(x1, i1)));
       const auto doubtful = hn::AndNot(decided, some);
       if (hn::AllFalse(d, doubtful)) continue;
-      add_doubts(d, shape,
-                 {number, static_cast<uint32_t>(j0 + j), static_cast<uint32_t>(k0 + k),
+      add_doubts(d, row, layer,
+                 {number, static_cast<uint32_t>(j0), static_cast<uint32_t>(k0),
                   static_cast<uint32_t>(setups.column.of[i]), 0},
                  doubtful, sure, x0, i0, i1, x1, doubts_);
     }
@@ -237,7 +230,6 @@ class RowDrawing {
   DoubtfulSpans& doubts_;
   SpanBuffer buffer_;
   const float row_step_, layer_step_;
-  LaneShape shapes_[max_shapes];
 };
 
 /// The least component of a normal that planes are cut by; with less, rows are in doubt all along.
