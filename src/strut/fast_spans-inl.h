@@ -14,8 +14,8 @@
 // (row_order-inl.h). Since v^2 + w^2 = A (g^2 + (k / A)^2), nothing else of the row is needed.
 //
 // Bounds. Lengths are in columns; u = 2^-24, R the radius, U = length + R, d the margin, which is
-// the uncertainty of the radius. Rows have |v|, |w| <= U. So the sums for g and k / A err by at
-// most 12 u U / A: roundings of their terms by 4.3 of that, roundings of the sums by 4.9.
+// the uncertainty of the radius. Rows have |v|, |w| <= U. So g and k / A err by at most 12 u U / A:
+// their terms by 4.3 u U / A, the sums by 4.9.
 // - The cylinder's D = R^2 / A - (k / A)^2 has an error of at most
 //   F = (44 u U R + (17 u U + d)^2) / A^2 + 2 R d / A
 //   where the row may meet it (|k| <= sqrt(A) R). So do the spheres', A (R^2 / A - (k / A)^2 -
