@@ -91,6 +91,14 @@ HWY_INLINE void add_doubts(D d, V row, V layer, const DoubtfulSpan& at, hn::Mask
   doubts.count(next);
 }
 
+/// What bits count from if rows and layers count from j and k, and columns, plus 1.5 * 2^23, as
+/// bits of a number, from `column`.
+HWY_INLINE int32_t first_bit_of(const RasterTarget& target, size_t j, size_t k, int32_t column) {
+  const auto word = static_cast<size_t>(target.row(j, k) - target.certain);
+  return static_cast<int32_t>(static_cast<uint32_t>(word * bits_per_word) +
+                              static_cast<uint32_t>(column) - 0x4b400000u);
+}
+
 /// The radii of one strut: constant, between a minimum and a maximum, or nearly linear in the
 /// position and between the two.
 enum class Radii { constant, bounded, linear };
@@ -149,8 +157,8 @@ HWY_INLINE void FastSpans<radii>::add_vectors(size_t strut, size_t begin, size_t
   const D d;
   const hn::RebindToSigned<D> di;
   const auto set = [&](const float* values) HWY_ATTR { return hn::Set(d, values[strut]); };
-  const auto line_of = [&](const StrutSetups::Steps& steps, V outer) HWY_ATTR {
-    return hn::MulAdd(outer, set(steps.outer), set(steps.first));
+  const auto line_of = [&](const StrutSetups::Steps& steps, V line) HWY_ATTR {
+    return hn::MulAdd(line, set(steps.outer), set(steps.first));
   };
   const RowVectors rows(setups_.order, strut);
   const V ux = set(setups_.ux), length = set(setups_.length), signed_ux2 = set(setups_.signed_ux2);
@@ -168,25 +176,19 @@ HWY_INLINE void FastSpans<radii>::add_vectors(size_t strut, size_t begin, size_t
 
   const auto j0 = static_cast<size_t>(setups_.j0[strut]),
              k0 = static_cast<size_t>(setups_.k0[strut]);
-  const size_t at = k0 * target_.layer_words + j0 * target_.row_words;
-  const auto first_bit =
-      hn::Set(di, static_cast<int32_t>(static_cast<uint32_t>(at * bits_per_word) +
-                                       static_cast<uint32_t>(setups_.column[strut]) - 0x4b400000u));
+  const auto first_bit = hn::Set(di, first_bit_of(target_, j0, k0, setups_.column[strut]));
 
   for (size_t vector = begin; vector < end; ++vector) {
     V inner, outer;
     const M in = rows.find(vector, inner, outer);
-    V g_line = line_of(setups_.g, outer), cross_line = line_of(setups_.cross, outer),
-      layer_w = zero;
+    V line = outer;
     if (!(target_.dz > 0)) {
       const size_t k = k0 + static_cast<size_t>(hn::GetLane(outer));
-      layer_w =
+      line =
           hn::Set(d, static_cast<float>((target_.z[k] - batch_.a[2][strut]) * target_.inverse_dx));
-      g_line = hn::MulAdd(layer_w, set(setups_.g_of_w), g_line);
-      cross_line = hn::MulAdd(layer_w, set(setups_.cross_of_w), cross_line);
     }
-    const V g = hn::MulAdd(inner, g_step, g_line), h = hn::Sub(g, length);
-    const V cross = hn::MulAdd(inner, cross_step, cross_line);
+    const V g = hn::MulAdd(inner, g_step, line_of(setups_.g, line)), h = hn::Sub(g, length);
+    const V cross = hn::MulAdd(inner, cross_step, line_of(setups_.cross, line));
     const V gg = hn::Mul(g, g), hh = hn::Mul(h, h);
     const V g2 = hn::CopySignToAbs(gg, g), h2 = hn::CopySignToAbs(hh, h);
     const V body_centre = hn::MulAdd(g, ux, a_column);
@@ -215,9 +217,8 @@ HWY_INLINE void FastSpans<radii>::add_vectors(size_t strut, size_t begin, size_t
 
     V high2 = set(setups_.high2), low2 = set(setups_.low2);
     if constexpr (radii == Radii::linear) {
-      const V v = hn::MulAdd(inner, set(setups_.v.inner), line_of(setups_.v, outer));
-      const V w =
-          hn::MulAdd(inner, set(setups_.w.inner), hn::Add(line_of(setups_.w, outer), layer_w));
+      const V v = hn::MulAdd(inner, set(setups_.v.inner), line_of(setups_.v, line));
+      const V w = hn::MulAdd(inner, set(setups_.w.inner), line_of(setups_.w, line));
       const V middle =
           hn::Min(hn::Max(body_centre, hn::Min(a_column, b_column)), hn::Max(a_column, b_column));
       V r = hn::MulAdd(hn::Sub(middle, a_column), set(setups_.gradient[0]), set(setups_.radius_a));

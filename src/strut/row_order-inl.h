@@ -29,14 +29,11 @@ struct RowOrder {
   /// A line has `width` rows from ceil(first + slope * line) on. Those from 0 to `extent` exist.
   V width, extent, lines, first, slope;
   hn::Mask<D> by_layers;  // lines are layers
-  // From row to row of a line and from line to line: in y and z, in columns, and in words.
-  V inner_dy, outer_dy, inner_dz, outer_dz, inner_words, outer_words;
 
   /// The whole of a box of rows and layers.
   HWY_INLINE RowOrder(D d, const RasterTarget& target, V rows, V layers)
       : width(rows), extent(rows), lines(layers), first(hn::Zero(d)), slope(hn::Zero(d)) {
     by_layers = hn::Eq(first, first);
-    set_steps(d, target);
     if (target.dz > 0) return;
     // Layers anywhere: a vector lies in one of them.
     const auto lanes = static_cast<double>(hn::Lanes(FullLanes()));
@@ -85,9 +82,12 @@ struct RowOrder {
             layer = hn::Mul(w, hn::Set(d, 1 / layer_step));
     consider(true, rows, layers, row, layer, in_rows);
     consider(false, layers, rows, layer, row, in_layers);
-    set_steps(d, target);
   }
 
+  /// The first if lines are layers, else the second.
+  HWY_INLINE V either(D d, double layered, double other) const {
+    return hn::IfThenElse(by_layers, hn::Set(d, layered), hn::Set(d, other));
+  }
   HWY_INLINE V vectors(D d) const {
     return hn::Ceil(hn::Mul(hn::Mul(width, lines),
                             hn::Set(d, 1.0 / static_cast<double>(hn::Lanes(FullLanes())))));
@@ -99,23 +99,6 @@ struct RowOrder {
   static bool fits(const RasterTarget& target) {
     return target.layers * target.layer_words < (size_t{1} << 24);
   }
-
- private:
-  HWY_INLINE void set_steps(D d, const RasterTarget& target) {
-    const auto either = [&](double layered, double other) HWY_ATTR {
-      return hn::IfThenElse(by_layers, hn::Set(d, layered), hn::Set(d, other));
-    };
-    const double row_step = target.dy * target.inverse_dx,
-                 layer_step = target.dz * target.inverse_dx;
-    inner_dy = either(row_step, 0);
-    outer_dy = either(0, row_step);
-    inner_dz = either(0, layer_step);
-    outer_dz = either(layer_step, 0);
-    const auto row_words = static_cast<double>(target.row_words),
-               layer_words = static_cast<double>(target.layer_words);
-    inner_words = either(row_words, layer_words);
-    outer_words = either(layer_words, row_words);
-  }
 };
 
 /// The same in single precision, of each of a number of solids.
@@ -123,11 +106,11 @@ template <size_t room>
 struct RowOrders {
   int32_t vectors[room];
   float width[room], inverse_width[room], extent[room], lines[room], first[room], slope[room];
-  float inner_words[room], outer_words[room];
+  float inner_words[room], outer_words[room];  // from row to row of a line, from line to line
   int32_t by_layers[room];
 
   template <class D>
-  HWY_INLINE void set(D d, const RowOrder<D>& order, size_t i) {
+  HWY_INLINE void set(D d, const RasterTarget& target, const RowOrder<D>& order, size_t i) {
     const hn::Rebind<float, D> df;
     const hn::Rebind<int32_t, D> di;
     const auto put = [&](hn::Vec<D> value, float* out)
@@ -141,8 +124,10 @@ struct RowOrders {
     put(order.lines, lines);
     put(order.first, first);
     put(order.slope, slope);
-    put(order.inner_words, inner_words);
-    put(order.outer_words, outer_words);
+    const auto row_words = static_cast<double>(target.row_words),
+               layer_words = static_cast<double>(target.layer_words);
+    put(order.either(d, row_words, layer_words), inner_words);
+    put(order.either(d, layer_words, row_words), outer_words);
   }
 };
 

@@ -14,7 +14,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "strut/raster_target.h"
 #include "strut/row_order-inl.h"
@@ -40,11 +39,11 @@ struct StrutSetups {
   float first[room], last[room];         // columns of the target
   float a_column[room], b_column[room];  // of the ends
   // Linear in the place of a row: what it is at the first row, and steps in a line and from line to
-  // line. g and k / A, see fast_spans-inl.h; and y and z, from a.
+  // line. If layers are anywhere, lines count by their z from a, in columns. g and k / A, see
+  // fast_spans-inl.h; and y and z, from a.
   struct Steps {
     float first[room], inner[room], outer[room];
   } g, cross, v, w;
-  float g_of_w[room], cross_of_w[room];      // steps if layers are anywhere
   float dy[room], dz[room];                  // from a to b
   float ux[room], length[room];              // axis
   float signed_ux2[room];                    // ux |ux|
@@ -191,7 +190,7 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     const V bound = hn::Set(d, 0x1p23);
     const auto near = [&](V value) { return hn::Min(hn::Max(value, hn::Neg(bound)), bound); };
     put_index(kernel, setups.kernel);
-    setups.order.set(d, order, i);
+    setups.order.set(d, target, order, i);
     put_index(hn::IfThenElseZero(clipped, one), setups.clipped);
     put_index(j0, setups.j0);
     put_index(j1, setups.j1);
@@ -210,16 +209,16 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(inverse_across, setups.inverse_across);
     const V along_of_y = hn::Mul(hn::Mul(dy, inverse_length), inverse_across),
             along_of_z = hn::Mul(hn::Mul(dz, inverse_length), inverse_across);
+    const double row_step = target.dy * target.inverse_dx,
+                 layer_step = target.dz > 0 ? target.dz * target.inverse_dx : 1;
     const auto put_steps = [&](V of_y, V of_z, StrutSetups::Steps& out) {
       const auto at = [&](V y, V z) { return hn::MulAdd(of_y, y, hn::Mul(of_z, z)); };
       put(at(v, w), out.first);
-      put(at(order.inner_dy, order.inner_dz), out.inner);
-      put(at(order.outer_dy, order.outer_dz), out.outer);
+      put(at(order.either(d, row_step, 0), order.either(d, 0, layer_step)), out.inner);
+      put(at(order.either(d, 0, row_step), order.either(d, layer_step, 0)), out.outer);
     };
     put_steps(along_of_y, along_of_z, setups.g);
     put_steps(along_of_z, hn::Neg(along_of_y), setups.cross);
-    put(along_of_z, setups.g_of_w);
-    put(hn::Neg(along_of_y), setups.cross_of_w);
     put(hn::Mul(r, r), setups.high2);
     const V thin = hn::Mul(low, scale);
     put(hn::IfThenElse(hn::Gt(thin, zero), hn::Mul(thin, thin), hn::Set(d, -1.0)), setups.low2);

@@ -75,7 +75,7 @@ void find_rows(const Box& box, FoundRows& found) {
                     number(box.first_layer * box.layer_step), number(box.y), number(box.z),
                     number(box.reach));
   RowOrders<max_simd_doubles> orders;
-  orders.set(d, order, 0);
+  orders.set(d, target, order, 0);
   found = {hn::Lanes(df), static_cast<size_t>(orders.vectors[0]), orders.by_layers[0] != 0, {}};
   const RowVectors vectors(orders, 0);
   for (size_t n = 0; n < found.vectors; ++n) {

@@ -114,7 +114,7 @@ struct RowSetups {
     RowOrder<D> rows(d, target, hn::Sub(end_j, first_j), hn::Sub(end_k, first_k));
     rows.follow_axis(d, target, from_y, from_z, dy, dz, reach);
     serves = hn::And(serves, rows.fits(d));
-    order.set(d, rows, 0);
+    order.set(d, target, rows, 0);
     V chosen = hn::Set(d, double{general});
     if (RowOrder<D>::fits(target))
       chosen = hn::IfThenElse(serves, hn::Set(d, double{fast}), chosen);
@@ -179,9 +179,7 @@ class RowDrawing {
     const auto set = [&](const Floats& values) HWY_ATTR { return hn::Set(d, values.of[i]); };
     const RowVectors rows(setups.order, i);
     const size_t j0 = index(setups.j0), k0 = index(setups.k0);
-    const size_t at = k0 * target_.layer_words + j0 * target_.row_words;
-    const auto first_bit = static_cast<uint32_t>(at * bits_per_word) +
-                           static_cast<uint32_t>(setups.column.of[i]) - 0x4b400000u;
+    const VI first_bit = hn::Set(di, first_bit_of(target_, j0, k0, setups.column.of[i]));
     const VF v0 = set(setups.v), w0 = set(setups.w);
     const VF first = set(setups.first), last = set(setups.last);
     const VF row_step = hn::Set(d, row_step_), layer_step = hn::Set(d, layer_step_);
@@ -210,8 +208,7 @@ class RowDrawing {
       // A whole number below 2^22 plus 1.5 * 2^23 has it in its last bits.
       const VF whole = hn::Set(d, 0x1.8p23f);
       const VI from = hn::BitCast(di, hn::Add(i0, whole)), to = hn::BitCast(di, hn::Add(i1, whole));
-      const VI start = hn::Add(from, hn::Set(di, static_cast<int32_t>(first_bit)));
-      buffer_.add(di, hn::Add(start, rows.bits(inner, outer)), hn::Sub(to, from),
+      buffer_.add(di, hn::Add(hn::Add(from, rows.bits(inner, outer)), first_bit), hn::Sub(to, from),
                   hn::RebindMask(di, sure));
 
       const auto decided = hn::And(sure, hn::And(hn::Eq(x0, i0), hn::Eq(x1, i1)));
